@@ -13,6 +13,7 @@ mod draw;
 mod encoding;
 mod evidence;
 mod expected;
+mod fit;
 mod near;
 mod observed;
 mod outline;
@@ -30,8 +31,8 @@ mod suggestions;
 mod together;
 
 pub use convention::{
-    Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission, Part,
-    Placement, Pose, Rays, Sampling, Several, ShapeKind,
+    Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Framing, Look, NearPlane,
+    Omission, Part, Placement, Pose, Rays, Sampling, Several, ShapeKind,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};

@@ -39,7 +39,9 @@ impl Candidate {
         let number_left = if self.encoding.has_own_numbers() { 50 } else { 1 };
         // Another eye sees much of what ours sees.
         let pose_left = if self.convention.pose == Pose::AsStated { 1 } else { 4 };
-        let least = parts_left.max(omission_left).max(number_left).max(pose_left);
+        let framing_left = if self.convention.is_framed() { 50 } else { 1 };
+        let own_left = number_left.max(pose_left).max(framing_left);
+        let least = parts_left.max(omission_left).max(own_left);
         let most_mistakes = if is_mask { 2 } else { 3 };
         mistakes <= most_mistakes
             && least * self.score.differing <= ours.differing
@@ -47,9 +49,9 @@ impl Candidate {
     }
 }
 
-/// How many choices are not ours.
+/// How many choices are not ours. A framing counts twice: it says what is seen, and not why.
 pub(super) fn parts(convention: &Convention, encoding: &Encoding) -> usize {
-    convention.mistakes() + encoding.parts()
+    convention.mistakes() + usize::from(convention.is_framed()) + encoding.parts()
 }
 
 /// Whether a hypothesis that leaves `simpler` pixels does as well as one with more parts that leaves `fewest`: the

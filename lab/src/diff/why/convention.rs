@@ -4,12 +4,14 @@
 //! hypothesis about a renderer. Hypotheses on different axes combine.
 
 mod field;
+mod framing;
 mod omission;
 mod placement;
 mod pose;
 mod sampling;
 
 pub use field::Field;
+pub use framing::Framing;
 pub use omission::{Between, Clip, NearPlane, Omission, Part, Several, ShapeKind};
 pub use placement::Placement;
 pub use pose::Pose;
@@ -32,6 +34,8 @@ pub struct Convention {
     pub pose: Pose,
     /// The size of the viewport.
     pub field: Field,
+    /// The size and the place of the whole picture.
+    pub framing: Framing,
     /// The direction of view.
     pub look: Look,
     /// The way in which the rays spread.
@@ -146,6 +150,8 @@ pub enum Change {
     Pose(Pose),
     /// Another viewport.
     Field(Field),
+    /// Another size and place of the picture, for which no other reason is known.
+    Framing(Framing),
     /// Another direction of view.
     Look(Look),
     /// Other rays.
@@ -207,6 +213,7 @@ impl Change {
             Change::Far(_) => 10,
             Change::Omission(_) => 11,
             Change::Pose(_) => 12,
+            Change::Framing(_) => 13,
         }
     }
 
@@ -224,6 +231,11 @@ impl Change {
 
     /// Whether it has a number that only a picture suggests: it fits a part of any picture.
     pub(super) fn has_own_number(self) -> bool {
+        self.leaves_out() || matches!(self, Change::Framing(_))
+    }
+
+    /// Whether it leaves out a primitive, an object, or what lies beyond a plane.
+    fn leaves_out(self) -> bool {
         matches!(self, Change::Near(_) | Change::Far(_) | Change::Omission(_))
     }
 
@@ -243,6 +255,7 @@ impl Convention {
             Change::Rows(rows) => Convention { rows, ..self },
             Change::Pose(pose) => Convention { pose, ..self },
             Change::Field(field) => Convention { field, ..self },
+            Change::Framing(framing) => Convention { framing, ..self },
             Change::Look(look) => Convention { look, ..self },
             Change::Rays(rays) => Convention { rays, ..self },
             Change::Edges(edges) => Convention { edges, ..self },
@@ -263,6 +276,7 @@ impl Convention {
             Change::Rows(self.rows),
             Change::Pose(self.pose),
             Change::Field(self.field),
+            Change::Framing(self.framing),
             Change::Look(self.look),
             Change::Rays(self.rays),
             Change::Edges(self.edges),
@@ -286,9 +300,14 @@ impl Convention {
         self.pose.camera(stated).unwrap_or(*stated)
     }
 
+    /// Whether the whole picture has another size or place.
+    pub(super) fn is_framed(&self) -> bool {
+        self.framing != Framing::default()
+    }
+
     /// Whether something is not drawn: a primitive, an object, or what lies beyond a plane.
     pub fn leaves_out(&self) -> bool {
-        self.changes().into_iter().any(Change::has_own_number)
+        self.changes().into_iter().any(Change::leaves_out)
     }
 
     /// Whether a part of the picture is blank.

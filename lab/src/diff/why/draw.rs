@@ -35,6 +35,18 @@ impl Drawn {
         self.t.fill(t);
     }
 
+    /// Shows nothing but in these rows and columns.
+    fn keep_only(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
+        for (line, row) in self.rows.iter().enumerate() {
+            let kept = if rows.contains(row) { columns.clone() } else { 0..0 };
+            let begin = line * self.width;
+            for beside in [begin..begin + kept.start, begin + kept.end..begin + self.width] {
+                self.ids[beside.clone()].fill(NO_PRIMITIVE);
+                self.t[beside].fill(f64::INFINITY);
+            }
+        }
+    }
+
     /// Shows nothing in a part of the picture.
     fn clear(&mut self, part: &Part) {
         let [rows, columns] =
@@ -93,6 +105,11 @@ pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
     }
     if canvas.rays.are_one() {
         canvas.drawn.repeat_first();
+    }
+    if convention.framing.is_alone {
+        let [rows, columns] = [(1, height), (0, width)]
+            .map(|(axis, count)| convention.framing.own_lines(axis, count));
+        canvas.drawn.keep_only(&rows, &columns);
     }
     if let Omission::Part(part) = convention.omission {
         canvas.drawn.clear(&part);

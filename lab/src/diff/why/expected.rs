@@ -98,7 +98,8 @@ impl<'a> Expected<'a> {
         found.into_iter().step_by(step).collect()
     }
 
-    fn size(&self) -> [usize; 2] {
+    /// Width and height of the picture.
+    pub(super) fn size(&self) -> [usize; 2] {
         [self.rays.x.len(), self.rays.y.len()]
     }
 
@@ -192,7 +193,8 @@ impl<'a> Expected<'a> {
         }
     }
 
-    fn id_number(&self, id: u32, encoding: IdEncoding) -> u64 {
+    /// The number that stands for a primitive; its id where names are its own.
+    pub(super) fn id_number(&self, id: u32, encoding: IdEncoding) -> u64 {
         match encoding {
             IdEncoding::FromZero | IdEncoding::OneToOne => id.into(),
             IdEncoding::CountedFrom(first) => first.saturating_add(id.into()),
@@ -239,6 +241,21 @@ impl<'a> Expected<'a> {
         score
     }
 
+    /// Tells of every drawn pixel: its index among the drawn ones, the index in the file, its row and its column.
+    pub(super) fn each_pixel(
+        &self,
+        placement: Placement,
+        mut tell: impl FnMut(usize, usize, [usize; 2]),
+    ) {
+        let place = IndexMap::new(placement, self.size());
+        let width = self.rays.x.len();
+        for (line, &row) in self.drawn.rows.iter().enumerate() {
+            for column in 0..width {
+                tell(line * width + column, place.index([row, column]), [row, column]);
+            }
+        }
+    }
+
     /// Tells of every drawn pixel: the index in the file, whether the two differ, and whether they differ in coverage.
     /// Returns the names of the primitives, if they have names of their own.
     pub(super) fn each(
@@ -248,30 +265,25 @@ impl<'a> Expected<'a> {
         encoding: &Encoding,
         mut tell: impl FnMut(usize, bool, bool),
     ) -> Renaming {
-        let place = IndexMap::new(placement, self.size());
-        let width = self.rays.x.len();
         let mut renaming = Renaming::default();
-        for (line, &row) in self.drawn.rows.iter().enumerate() {
-            for column in 0..width {
-                let (pixel, index) = (line * width + column, place.index([row, column]));
-                let id = self.drawn.ids[pixel];
-                let expected = self.is_something(id, observed, encoding);
-                let covered = observed.covered(index, encoding.nothing);
-                let differs = if covered != expected {
-                    true
-                } else if !covered {
-                    false
-                } else if encoding.ids == IdEncoding::OneToOne
-                    && let Values::Ids(ids) = &observed.values
-                {
-                    !renaming.holds(id, ids[index])
-                } else {
-                    let probe = Probe { pixel, index, row, column };
-                    !self.agrees(observed, &probe, encoding)
-                };
-                tell(index, differs, covered != expected);
-            }
-        }
+        self.each_pixel(placement, |pixel, index, [row, column]| {
+            let id = self.drawn.ids[pixel];
+            let expected = self.is_something(id, observed, encoding);
+            let covered = observed.covered(index, encoding.nothing);
+            let differs = if covered != expected {
+                true
+            } else if !covered {
+                false
+            } else if encoding.ids == IdEncoding::OneToOne
+                && let Values::Ids(ids) = &observed.values
+            {
+                !renaming.holds(id, ids[index])
+            } else {
+                let probe = Probe { pixel, index, row, column };
+                !self.agrees(observed, &probe, encoding)
+            };
+            tell(index, differs, covered != expected);
+        });
         renaming
     }
 

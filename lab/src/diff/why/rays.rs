@@ -1,6 +1,6 @@
 //! The viewing rays of a renderer with other conventions.
 
-use super::convention::{Convention, Look, Rays};
+use super::convention::{Convention, Framing, Look, Rays};
 use crate::common::glam::DVec3;
 use crate::common::{Camera, CameraDescription, Judge, Projection, Ray};
 use std::ops::{Index, Range};
@@ -41,12 +41,22 @@ impl ViewingRays {
             Projection::Parallel => 1.0,
         };
         let description = CameraDescription { projection, distance, ..*camera.description() };
-        let coordinates = |sampling: super::convention::Sampling, side: f64, n: u32| {
-            (0..n).map(move |index| sampling.coordinate(side, index, n))
+        let framing = convention.framing;
+        let coordinates = |sampling: super::convention::Sampling, axis: usize| {
+            let (side, n) = ([vw, vh][axis], [width, height][axis]);
+            let spacing = side / f64::from(n);
+            (0..n).map(move |index| {
+                let at = sampling.coordinate(side, index, n);
+                // Without a framing, nothing is rounded once more.
+                if framing == Framing::default() {
+                    at
+                } else {
+                    framing.source(axis, at / spacing) * spacing
+                }
+            })
         };
-        let x = Coordinates::new(coordinates(convention.columns, vw, width).collect());
-        let y =
-            Coordinates::new(coordinates(convention.rows, vh, height).map(|y| rise - y).collect());
+        let x = Coordinates::new(coordinates(convention.columns, 0).collect());
+        let y = Coordinates::new(coordinates(convention.rows, 1).map(|y| rise - y).collect());
         let distance = if convention.look == Look::Backward { -length } else { length };
         ViewingRays {
             extent: x.longest() + y.longest(),

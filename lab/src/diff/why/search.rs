@@ -2,7 +2,10 @@
 //!
 //! Each hypothesis is drawn. First every single change and every pair of changes on different axes is held against
 //! some rows of the file, with every placement; the best of them are drawn as a whole, and changes are added as long
-//! as each of them explains at least half of what is left. A change that explains less is left out again.
+//! as each of them explains at least half of what is left. A change that explains less is left out again. The file itself
+//! tells planes, what is not drawn, and the size and the place of the whole picture.
+
+mod framing;
 
 use super::candidate::{Candidate, as_good, parts};
 use super::convention::{Change, Convention, Placement};
@@ -362,6 +365,8 @@ impl Search<'_> {
         let ours = self.drawn_whole(placed);
         all.extend(self.with_suggestions(&ours));
         all.push(ours);
+        let framed = self.framed();
+        all.extend(framed);
         // More parts cannot do better than what explains all.
         if starts[0].score.differing == 0 {
             return all;
@@ -372,6 +377,7 @@ impl Search<'_> {
                 starts.push(self.drawn_whole(ours));
             }
         }
+        starts.extend(framed.filter(|one| 2 * one.score.differing < differing));
         for start in starts {
             self.add_changes(start, &changes, differing, &mut all);
         }

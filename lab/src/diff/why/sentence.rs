@@ -8,7 +8,7 @@ use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, No
 use super::search::Explanation;
 use crate::common::{Camera, Projection};
 use crate::wording::{readable, three_digits};
-use camera::{of_fields, of_pose};
+use camera::{of_fields, of_framing, of_pose};
 use omission::{of_far, of_near, of_omission};
 
 impl Explanation {
@@ -107,6 +107,7 @@ fn sentence(
         }
         Change::Rows(sampling) => of_sampling(sampling, ["i", "H", "cy", "row", "top", "bottom"]),
         Change::Pose(pose) => of_pose(pose).into(),
+        Change::Framing(framing) => of_framing(framing, placement, camera),
         Change::Field(field) => of_fields(field, camera),
         Change::Look(Look::Backward | Look::Forward) => {
             "looks along +w, and sees what lies behind the eye: the direction is x u + y v - d w"

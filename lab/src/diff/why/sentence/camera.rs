@@ -1,7 +1,8 @@
 //! The eye, the axes and the viewport of a renderer in sentences.
 
-use crate::common::Camera;
-use crate::diff::why::convention::{Field, Pose};
+use crate::common::{Camera, Projection};
+use crate::diff::why::convention::{Field, Framing, Placement, Pose};
+use crate::wording::three_digits;
 
 /// The eye and the axes.
 pub(super) fn of_pose(pose: Pose) -> &'static str {
@@ -107,10 +108,111 @@ fn of_field(field: Field) -> &'static str {
     }
 }
 
+/// The size and the place of the whole picture; the camera tells what may be the cause.
+pub(super) fn of_framing(
+    framing: Framing,
+    placement: Placement,
+    camera: Option<&Camera>,
+) -> String {
+    let Framing { scale: [x, y], shift, is_alone } = framing;
+    let [wide, high] = [x, y].map(three_digits);
+    let size = match (x == y, x == 1.0, y == 1.0) {
+        (true, true, _) => None,
+        (true, false, _) => Some(format!("{wide} times as large")),
+        (false, false, true) => Some(format!("{wide} times as wide")),
+        (false, true, false) => Some(format!("{high} times as high")),
+        (false, ..) => Some(format!("{wide} times as wide and {high} times as high")),
+    };
+    let moved = of_shift(shift);
+    let what = match (&size, &moved) {
+        (Some(size), Some(moved)) => format!("{size}, and {moved}"),
+        (one, other) => one.as_ref().or(other.as_ref()).cloned().unwrap_or_default(),
+    };
+    let turned =
+        if placement == Placement::Upright { "" } else { " (once the picture is upright)" };
+    let beside = if is_alone { ", and nothing around it" } else { "" };
+    let causes = camera.filter(|_| size.is_some()).map(|camera| {
+        if is_alone { cause_of_part([x, y], camera) } else { causes_of_size([x, y], camera) }
+    });
+    let all = if is_alone { "the picture" } else { "everything" };
+    format!("shows {all} {what}{turned}{beside}{}", causes.unwrap_or_default())
+}
+
+/// The image that is so much smaller than the one that is asked for.
+fn cause_of_part([x, y]: [f64; 2], camera: &Camera) -> String {
+    let [width, height] = camera.image();
+    let [columns, rows] = [x * f64::from(width), y * f64::from(height)].map(f64::round);
+    format!(": does it draw {columns} x {rows} pixels into an image of {width} x {height}?")
+}
+
+fn of_shift([right, down]: [f64; 2]) -> Option<String> {
+    let pixels = |by: f64| if by.abs() == 1.0 { "pixel" } else { "pixels" };
+    let part = |by: f64, [less, more]: [&str; 2]| {
+        let way = if by < 0.0 { less } else { more };
+        (by != 0.0).then(|| format!("{} {} too far {way}", three_digits(by.abs()), pixels(by)))
+    };
+    let parts = [part(right, ["to the left", "to the right"]), part(down, ["up", "down"])];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join(" and "))
+}
+
+/// The viewport, the distance and the field of view that would show everything so large.
+fn causes_of_size([x, y]: [f64; 2], camera: &Camera) -> String {
+    let [vw, vh] = camera.viewport();
+    let sides = |[vw, vh]: [f64; 2]| format!("{} x {}", three_digits(vw), three_digits(vh));
+    let viewport = format!("its viewport {}, not {}", sides([vw / x, vh / y]), sides([vw, vh]));
+    if camera.projection() == Projection::Parallel {
+        return format!(": is {viewport}?");
+    }
+    let angle = |vh: f64| three_digits(2.0 * (vh / 2.0 / camera.distance()).atan().to_degrees());
+    let angles = (y != 1.0).then(|| {
+        format!("its field of view {} degrees high, not {}, or ", angle(vh / y), angle(vh))
+    });
+    let distance = (x == y).then(|| {
+        let d = camera.distance();
+        format!(", or its d {}, not {}", three_digits(d * x), three_digits(d))
+    });
+    // Where all lies at one distance, this is the same picture.
+    let eye = (x == y).then(|| {
+        let place = if x > 1.0 { "nearer" } else { "farther away" };
+        format!(", or its eye {place}")
+    });
+    let [angles, distance, eye] = [angles, distance, eye].map(Option::unwrap_or_default);
+    format!(": is {angles}{viewport}{distance}{eye}?")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::common::CameraDescription;
+
+    #[test]
+    fn a_framing_is_told_with_what_may_be_the_cause() {
+        let camera = Camera::canonical(12, 16);
+        let said = |scale, shift, is_alone, placement| {
+            of_framing(Framing { scale, shift, is_alone }, placement, Some(&camera))
+        };
+        use Placement::{Upright, UpsideDown};
+        assert_eq!(
+            said([1.25, 1.25], [0.0, 0.0], false, Upright),
+            "shows everything 1.25 times as large: is its field of view 43.6 degrees high, not 53.1, or its viewport \
+             0.8 x 0.8, not 1 x 1, or its d 1.25, not 1, or its eye nearer?"
+        );
+        assert_eq!(
+            said([1.25, 1.0], [0.0, 0.0], false, Upright),
+            "shows everything 1.25 times as wide: is its viewport 0.8 x 1, not 1 x 1?"
+        );
+        assert_eq!(
+            said([1.0, 1.0], [1.0, -2.5], true, UpsideDown),
+            "shows the picture 1 pixel too far to the right and 2.5 pixels too far up (once the picture is upright), and \
+             nothing around it"
+        );
+        assert_eq!(
+            said([0.5, 0.5], [-4.0, 3.0], true, Upright),
+            "shows the picture 0.5 times as large, and 4 pixels too far to the left and 3 pixels too far down, and nothing \
+             around it: does it draw 8 x 6 pixels into an image of 16 x 12?"
+        );
+    }
 
     #[test]
     fn a_viewport_is_named_with_the_others_of_its_size_and_none_that_is_right() {

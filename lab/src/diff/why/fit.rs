@@ -1,0 +1,153 @@
+//! The framing that takes a picture to the one that a file shows, by the places of its primitives in both.
+//!
+//! Where a picture is stretched and moved, every primitive keeps what hides it: the middle of its pixels is stretched and
+//! moved alike. A line through all of these middles, by least squares, is the framing, but for what pixels round.
+
+use super::convention::{Framing, Placement};
+use super::encoding::{Encoding, IdEncoding};
+use super::expected::Expected;
+use super::observed::{Observed, Values};
+use crate::common::frame::NO_PRIMITIVE;
+use std::collections::BTreeMap;
+
+/// Fewer primitives may lie so by accident.
+const FEWEST_PRIMITIVES: usize = 3;
+
+/// A framing, and how many primitives tell it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fit {
+    pub(super) framing: Framing,
+    pub(super) primitives: usize,
+}
+
+/// Where a number lies in a picture.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spot {
+    pixels: f64,
+    sum: [f64; 2],
+    squares: [f64; 2],
+    /// Whether a part of it may lie beside the picture.
+    is_cut: bool,
+}
+
+impl Spot {
+    fn add(&mut self, at: [f64; 2], is_at_border: bool) {
+        self.pixels += 1.0;
+        for (axis, at) in at.into_iter().enumerate() {
+            self.sum[axis] += at;
+            self.squares[axis] += at * at;
+        }
+        self.is_cut |= is_at_border;
+    }
+
+    fn middle(&self, axis: usize) -> f64 {
+        self.sum[axis] / self.pixels
+    }
+
+    /// The root of the mean square of the distances from the middle.
+    fn spread(&self, axis: usize) -> f64 {
+        let middle = self.middle(axis);
+        (self.squares[axis] / self.pixels - middle * middle).max(0.0).sqrt()
+    }
+}
+
+/// The framing under which the picture is the file, as far as primitives tell that lie wholly in both: for files of ids, and
+/// for masks, where all that is covered is one.
+pub(super) fn framing_of_file(
+    expected: &Expected,
+    observed: &Observed,
+    placement: Placement,
+    encoding: &Encoding,
+) -> Option<Fit> {
+    let fewest = match &observed.values {
+        Values::Ids(_) if encoding.ids != IdEncoding::OneToOne => FEWEST_PRIMITIVES,
+        Values::Mask(_) => 1,
+        Values::Ids(_) | Values::Distances(_) => return None,
+    };
+    let own_number = |id: u32| match &observed.values {
+        Values::Ids(_) => expected.id_number(id, encoding.ids),
+        _ => 0,
+    };
+    let number_of_file = |index: usize| {
+        let number = match &observed.values {
+            Values::Ids(numbers) => numbers[index],
+            _ => Some(0),
+        };
+        number.filter(|_| observed.covered(index, encoding.nothing))
+    };
+    let [width, height] = expected.size();
+    #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
+    let at = |index: usize, side: usize| index as f64 + 0.5 - side as f64 / 2.0;
+    let [mut ours, mut theirs] = [(); 2].map(|()| BTreeMap::<u64, Spot>::new());
+    expected.each_pixel(placement, |pixel, index, [row, column]| {
+        let place = [at(column, width), at(row, height)];
+        let is_at_border = [row, column].contains(&0) || row + 1 == height || column + 1 == width;
+        let id = expected.drawn.ids[pixel];
+        if id != NO_PRIMITIVE {
+            ours.entry(own_number(id)).or_default().add(place, is_at_border);
+        }
+        if let Some(number) = number_of_file(index) {
+            theirs.entry(number).or_default().add(place, is_at_border);
+        }
+    });
+    let whole = |spot: &&Spot| !spot.is_cut;
+    let pairs: Vec<[Spot; 2]> = ours
+        .iter()
+        .filter_map(|(number, own)| {
+            let other = theirs.get(number).filter(whole)?;
+            Some(own).filter(whole).map(|own| [*own, *other])
+        })
+        .collect();
+    if pairs.len() < fewest {
+        return None;
+    }
+    let [x, y] = [0, 1].map(|axis| line(&pairs, axis));
+    let ([x, right], [y, down]) = (x?, y?);
+    let framing = Framing { scale: [x, y], shift: [right, down], is_alone: false };
+    Some(Fit { framing, primitives: pairs.len() })
+}
+
+/// The scale and the shift along one axis, where the places in both pictures lie on a line, but for what pixels round.
+fn line(pairs: &[[Spot; 2]], axis: usize) -> Option<[f64; 2]> {
+    let weight = |[own, other]: &[Spot; 2]| own.pixels.min(other.pixels);
+    let all: f64 = pairs.iter().map(weight).sum();
+    let middles = [0, 1].map(|side: usize| {
+        let sum: f64 = pairs.iter().map(|pair| weight(pair) * pair[side].middle(axis)).sum();
+        sum / all
+    });
+    /// The least correlation.
+    const LEAST: f64 = 0.95;
+    let (mut both, mut own_square, mut other_square) = (0.0, 0.0, 0.0);
+    for pair in pairs {
+        let [own, other] = [0, 1].map(|side: usize| pair[side].middle(axis) - middles[side]);
+        let [own_spread, other_spread] = [0, 1].map(|side: usize| pair[side].spread(axis));
+        both += weight(pair) * (own * other + own_spread * other_spread);
+        own_square += weight(pair) * (own * own + own_spread * own_spread);
+        other_square += weight(pair) * (other * other + other_spread * other_spread);
+    }
+    let scale = both / own_square;
+    let is_line = both > LEAST * (own_square * other_square).sqrt();
+    is_line.then(|| [scale, middles[1] - scale * middles[0]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_goes_through_the_middles() {
+        let spot = |middle: f64, half: f64| {
+            let mut spot = Spot::default();
+            spot.add([middle - half, 0.0], false);
+            spot.add([middle + half, 1.0], false);
+            spot
+        };
+        let pairs = [-3.0, 0.5, 7.0].map(|at: f64| [spot(at, 1.0), spot(1.5 * at - 2.0, 1.5)]);
+        assert_eq!(line(&pairs, 0), Some([1.5, -2.0]));
+        // What has no extent along an axis has no scale there.
+        let flat = [1.0, 1.0, 1.0].map(|at: f64| [spot(at, 0.0), spot(at, 0.0)]);
+        assert_eq!(line(&flat, 0), None);
+        let mirrored = [-3.0, 0.5, 7.0].map(|at: f64| [spot(at, 1.0), spot(-at, 1.0)]);
+        assert_eq!(line(&mirrored, 0), None);
+    }
+}

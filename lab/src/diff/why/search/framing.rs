@@ -1,0 +1,57 @@
+//! The search for the size and the place of a whole picture.
+
+use super::super::candidate::{Candidate, as_good};
+use super::super::convention::{Change, Convention, Framing};
+use super::super::encoding::{Encoding, IdEncoding};
+use super::super::expected::Expected;
+use super::super::fit::{Fit, framing_of_file};
+use super::Search;
+
+/// So often a framing is measured: each time, pixels round less.
+const MOST_FITS: usize = 6;
+
+impl Search<'_> {
+    /// Our conventions with the size and the place of the picture that the file shows: with more of the scene around it, unless
+    /// with nothing around it it explains more.
+    pub(super) fn framed(&self) -> Option<Candidate> {
+        let placed = self.placed(Convention::default(), self.truth);
+        let told = placed.iter().filter(|one| self.fit(one).is_some());
+        let both = told.flat_map(|one| [false, true].map(|is_alone| self.framed_so(one, is_alone)));
+        both.flatten().min_by_key(Candidate::rank)
+    }
+
+    fn framed_so(&self, candidate: &Candidate, is_alone: bool) -> Option<Candidate> {
+        let Candidate { convention, score, .. } = *candidate;
+        let with = |framing: Framing| {
+            let change = Change::Framing(Framing { is_alone, ..framing });
+            self.drawn_whole(convention.with(change))
+        };
+        let mut best = *candidate;
+        for _ in 0..MOST_FITS {
+            let next = best.convention.framing.then(self.fit(&best)?);
+            let fitted = with(next);
+            if fitted.score.differing >= best.score.differing {
+                break;
+            }
+            best = fitted;
+        }
+        if !best.convention.is_framed() {
+            return None;
+        }
+        let simple = with(best.convention.framing.simple());
+        let is_as_good = as_good(simple.score.differing, best.score.differing, score.differing);
+        Some(if is_as_good { simple } else { best })
+    }
+
+    /// The framing that most primitives tell. In a picture of another size, numbers say nothing yet about how they count.
+    fn fit(&self, candidate: &Candidate) -> Option<Framing> {
+        let drawn = self.whole(&candidate.convention);
+        let expected = Expected::new(self.view, &candidate.convention, &drawn);
+        let ids = [IdEncoding::FromZero, IdEncoding::CountedFrom(1), candidate.encoding.ids];
+        let fits = ids.into_iter().filter_map(|ids| {
+            let encoding = Encoding { ids, ..candidate.encoding };
+            framing_of_file(&expected, self.observed, candidate.convention.placement, &encoding)
+        });
+        fits.max_by_key(|fit| fit.primitives).map(|Fit { framing, .. }| framing)
+    }
+}
