@@ -37,10 +37,11 @@ impl Candidate {
             (false, _) => 1,
         };
         let number_left = if self.encoding.has_own_numbers() { 50 } else { 1 };
-        // Another eye sees much of what ours sees.
-        let pose_left = if self.convention.pose == Pose::AsStated { 1 } else { 4 };
+        // Another eye, or nearly the same field of view, sees much of what ours sees.
+        let is_posed = self.convention.pose != Pose::AsStated;
+        let camera_left = if is_posed || self.convention.field.is_of_angle() { 50 } else { 1 };
         let framing_left = if self.convention.is_framed() { 50 } else { 1 };
-        let own_left = number_left.max(pose_left).max(framing_left);
+        let own_left = number_left.max(camera_left).max(framing_left);
         let least = parts_left.max(omission_left).max(own_left);
         let most_mistakes = if is_mask { 2 } else { 3 };
         mistakes <= most_mistakes

@@ -51,30 +51,18 @@ impl Spot {
     }
 }
 
-/// The framing under which the picture is the file, as far as primitives tell that lie wholly in both: for files of ids, and
-/// for masks, where all that is covered is one.
+/// The framing under which the picture is the file, as far as primitives tell that lie wholly in both. Only files of ids tell: a
+/// mask is one shape, which may as well be an object of another size.
 pub(super) fn framing_of_file(
     expected: &Expected,
     observed: &Observed,
     placement: Placement,
     encoding: &Encoding,
 ) -> Option<Fit> {
-    let fewest = match &observed.values {
-        Values::Ids(_) if encoding.ids != IdEncoding::OneToOne => FEWEST_PRIMITIVES,
-        Values::Mask(_) => 1,
-        Values::Ids(_) | Values::Distances(_) => return None,
-    };
-    let own_number = |id: u32| match &observed.values {
-        Values::Ids(_) => expected.id_number(id, encoding.ids),
-        _ => 0,
-    };
-    let number_of_file = |index: usize| {
-        let number = match &observed.values {
-            Values::Ids(numbers) => numbers[index],
-            _ => Some(0),
-        };
-        number.filter(|_| observed.covered(index, encoding.nothing))
-    };
+    let Values::Ids(numbers) = &observed.values else { return None };
+    if encoding.ids == IdEncoding::OneToOne {
+        return None;
+    }
     let [width, height] = expected.size();
     #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
     let at = |index: usize, side: usize| index as f64 + 0.5 - side as f64 / 2.0;
@@ -84,9 +72,10 @@ pub(super) fn framing_of_file(
         let is_at_border = [row, column].contains(&0) || row + 1 == height || column + 1 == width;
         let id = expected.drawn.ids[pixel];
         if id != NO_PRIMITIVE {
-            ours.entry(own_number(id)).or_default().add(place, is_at_border);
+            let number = expected.id_number(id, encoding.ids);
+            ours.entry(number).or_default().add(place, is_at_border);
         }
-        if let Some(number) = number_of_file(index) {
+        if let Some(number) = numbers[index].filter(|_| observed.covered(index, encoding.nothing)) {
             theirs.entry(number).or_default().add(place, is_at_border);
         }
     });
@@ -98,7 +87,7 @@ pub(super) fn framing_of_file(
             Some(own).filter(whole).map(|own| [*own, *other])
         })
         .collect();
-    if pairs.len() < fewest {
+    if pairs.len() < FEWEST_PRIMITIVES {
         return None;
     }
     let [x, y] = [0, 1].map(|axis| line(&pairs, axis));

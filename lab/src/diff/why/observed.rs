@@ -65,6 +65,21 @@ impl Observed {
         placement.fits(self.size.map(side), image)
     }
 
+    /// Whether a file of ids shows three or more of them; another file shows none.
+    pub(super) fn shows_several_ids(&self) -> bool {
+        let Values::Ids(ids) = &self.values else { return true };
+        let mut shown: Vec<u64> = Vec::new();
+        for id in ids.iter().copied().flatten() {
+            if !shown.contains(&id) {
+                shown.push(id);
+            }
+            if shown.len() > 2 {
+                return true;
+            }
+        }
+        false
+    }
+
     /// How many pixels are covered.
     pub(super) fn covered_count(&self, nothing: NothingEncoding) -> u64 {
         let pixels = 0..self.size[0] * self.size[1];

@@ -30,12 +30,23 @@ impl ViewingRays {
     /// The rays of a camera under a convention. Under ours they have the bits of
     /// [`Camera::viewing_ray`](crate::common::Camera::viewing_ray).
     pub(super) fn new(camera: &Camera, convention: &Convention) -> ViewingRays {
-        let rise = convention.pose.rise(camera);
-        let camera = &convention.camera(camera);
+        let (stated, camera) = (camera, &convention.camera(camera));
+        let rise = convention.pose.rise(stated);
         let [width, height] = camera.image();
-        let [vw, vh] = convention.field.viewport(camera);
+        // The field is that of the scene file; axes that are not of unit length stretch what it gives.
+        let stretched = |of_field: f64, of_pose: f64, of_stated: f64| {
+            if of_pose == of_stated { of_field } else { of_field * (of_pose / of_stated) }
+        };
+        let field = convention.field.viewport(stated);
+        let [vw, vh] = [0, 1]
+            .map(|axis| stretched(field[axis], camera.viewport()[axis], stated.viewport()[axis]));
         let projection = convention.rays.projection(camera.projection());
-        let distance = convention.field.distance(camera);
+        #[expect(clippy::cast_possible_truncation, reason = "a camera's distance is an f32")]
+        let distance = stretched(
+            convention.field.distance(stated).into(),
+            camera.distance(),
+            stated.distance(),
+        ) as f32;
         let length = match projection {
             Projection::Perspective => f64::from(distance),
             Projection::Parallel => 1.0,

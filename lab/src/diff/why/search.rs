@@ -8,7 +8,7 @@
 mod framing;
 
 use super::candidate::{Candidate, as_good, parts};
-use super::convention::{Change, Convention, Placement};
+use super::convention::{Change, Convention, Placement, Pose};
 use super::differences::Differences;
 use super::draw::{Drawn, Rows, draw, equally_near};
 use super::encoding::{Encoding, IdEncoding, NothingEncoding};
@@ -245,7 +245,10 @@ impl Search<'_> {
     }
 
     fn may_explain(&self, candidate: &Candidate, ours: Score) -> bool {
-        candidate.may_explain(ours, matches!(self.observed.values, Values::Mask(_)))
+        // What shows one or two primitives, many a wrong eye sees.
+        let tells_pose =
+            candidate.convention.pose == Pose::AsStated || self.observed.shows_several_ids();
+        tells_pose && candidate.may_explain(ours, matches!(self.observed.values, Values::Mask(_)))
     }
 
     fn meanings_of_nothing(&self) -> Vec<NothingEncoding> {

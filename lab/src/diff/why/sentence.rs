@@ -62,6 +62,10 @@ fn of_convention(
         sentences.push(both);
     }
     let placement = convention.placement;
+    let is_of_camera = |change: &Change| matches!(change, Change::Field(_) | Change::Pose(_));
+    // What may be the cause of a framing follows from the camera as it is stated.
+    let has_other_camera = convention.is_framed() && changes.iter().any(is_of_camera);
+    let camera = camera.filter(|_| !has_other_camera);
     let parts = changes.into_iter().map(|change| sentence(change, placement, projection, camera));
     parts.chain(sentences).collect()
 }

@@ -81,7 +81,7 @@ impl Field {
     }
 
     /// Whether it is a mistake about the field of view, an angle that a parallel camera does not have.
-    fn is_of_angle(self) -> bool {
+    pub(in crate::diff::why) fn is_of_angle(self) -> bool {
         use Field::{
             AngleForTangent, DegreesAsRadians, TangentOfQuarterAngle, TangentOfWholeAngle,
             VerticalAsDiagonal,

@@ -27,17 +27,22 @@ impl Framing {
         Framing { scale, shift, is_alone: self.is_alone || next.is_alone }
     }
 
-    /// The same with simple numbers, where they are near: a scale of 1, one scale for both sides, whole and half pixels.
-    pub(in crate::diff::why) fn simple(self) -> Framing {
-        let is_near = |one: f64, other: f64| (one - other).abs() < 3e-3;
+    /// The same with a simple scale, where one is near: 1, or one for both sides.
+    pub(in crate::diff::why) fn with_simple_scale(self) -> Framing {
+        let is_near = |one: f64, other: f64| (one - other).abs() < 5e-3;
         let [x, y] = self.scale.map(|scale| if is_near(scale, 1.0) { 1.0 } else { scale });
         let both = f64::midpoint(x, y);
         let scale = if is_near(x, y) && x != 1.0 && y != 1.0 { [both; 2] } else { [x, y] };
+        Framing { scale, ..self }
+    }
+
+    /// The same with whole and half pixels, where they are near.
+    pub(in crate::diff::why) fn with_simple_shift(self) -> Framing {
         let shift = self.shift.map(|shift| {
             let halves = (2.0 * shift).round() / 2.0;
             if (shift - halves).abs() < 0.1 { halves } else { shift }
         });
-        Framing { scale, shift, ..self }
+        Framing { shift, ..self }
     }
 
     /// Where the point that our picture shows `at` pixels from the middle of its image lies in the scene's own picture.
@@ -77,11 +82,12 @@ mod tests {
     fn numbers_near_simple_ones_are_simple() {
         let framing = |scale, shift| Framing { scale, shift, is_alone: false };
         let measured = framing([1.1502, 1.1499], [4.98, -2.51]);
-        let [x, y] = measured.simple().scale;
+        let [x, y] = measured.with_simple_scale().scale;
         assert!(x == y && (x - 1.15005).abs() < 1e-9);
-        assert_eq!(measured.simple().shift, [5.0, -2.5]);
+        assert_eq!(measured.with_simple_shift().shift, [5.0, -2.5]);
         let moved = framing([1.0004, 0.9997], [0.3, 0.02]);
-        assert_eq!(moved.simple(), framing([1.0; 2], [0.3, 0.0]));
+        let simple = moved.with_simple_scale().with_simple_shift();
+        assert_eq!(simple, framing([1.0; 2], [0.3, 0.0]));
     }
 
     #[test]

@@ -10,13 +10,19 @@ use super::Search;
 /// So often a framing is measured: each time, pixels round less.
 const MOST_FITS: usize = 6;
 
+/// In so many placements it is measured: ids tell most of the wrong ones.
+const MOST_PLACEMENTS: usize = 2;
+
 impl Search<'_> {
     /// Our conventions with the size and the place of the picture that the file shows: with more of the scene around it, unless
     /// with nothing around it it explains more.
     pub(super) fn framed(&self) -> Option<Candidate> {
-        let placed = self.placed(Convention::default(), self.truth);
+        let mut placed = self.placed(Convention::default(), self.truth);
+        placed.sort_by_key(Candidate::rank);
         let told = placed.iter().filter(|one| self.fit(one).is_some());
-        let both = told.flat_map(|one| [false, true].map(|is_alone| self.framed_so(one, is_alone)));
+        let both = told
+            .take(MOST_PLACEMENTS)
+            .flat_map(|one| [false, true].map(|is_alone| self.framed_so(one, is_alone)));
         both.flatten().min_by_key(Candidate::rank)
     }
 
@@ -38,9 +44,13 @@ impl Search<'_> {
         if !best.convention.is_framed() {
             return None;
         }
-        let simple = with(best.convention.framing.simple());
-        let is_as_good = as_good(simple.score.differing, best.score.differing, score.differing);
-        Some(if is_as_good { simple } else { best })
+        for simple in [Framing::with_simple_scale, Framing::with_simple_shift] {
+            let other = with(simple(best.convention.framing));
+            if as_good(other.score.differing, best.score.differing, score.differing) {
+                best = other;
+            }
+        }
+        Some(best).filter(|best| best.convention.is_framed())
     }
 
     /// The framing that most primitives tell. In a picture of another size, numbers say nothing yet about how they count.

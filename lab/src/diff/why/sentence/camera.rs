@@ -40,7 +40,7 @@ pub(super) fn of_pose(pose: Pose) -> &'static str {
             "does not normalize u: divide u = up x w by its length, and take v = w x u then"
         }
         Pose::BackNotNormalized => {
-            "does not normalize w: divide it by its length, or d w is not d long"
+            "does not normalize w: divide it by its length; otherwise d w is not d long"
         }
         Pose::OnlyRightNormalized => {
             "does not normalize w: divide it by its length before v = w x u and d w, which are too long otherwise"
@@ -77,7 +77,7 @@ fn of_field(field: Field) -> &'static str {
             "has the form of the image upside down: it multiplies x by H/W for W/H"
         }
         Field::Double => {
-            "has a viewport twice as wide and as high: half of vw and vh is missing (x goes from -vw/2 to vw/2)"
+            "has a viewport twice as wide and as high: half of vw and vh is missing (x goes from -vw/2 to vw/2, y from -vh/2 to vh/2)"
         }
         Field::Half => "has a viewport half as wide and as high: vw and vh are halved twice",
         Field::TangentOfWholeAngle => {
@@ -108,7 +108,7 @@ fn of_field(field: Field) -> &'static str {
     }
 }
 
-/// The size and the place of the whole picture; the camera tells what may be the cause.
+/// The size and the place of the whole picture; the camera, where all else is as it states, tells what may be the cause.
 pub(super) fn of_framing(
     framing: Framing,
     placement: Placement,
@@ -116,7 +116,7 @@ pub(super) fn of_framing(
 ) -> String {
     let Framing { scale: [x, y], shift, is_alone } = framing;
     let [wide, high] = [x, y].map(three_digits);
-    let size = match (x == y, x == 1.0, y == 1.0) {
+    let size = match (wide == high, wide == "1", high == "1") {
         (true, true, _) => None,
         (true, false, _) => Some(format!("{wide} times as large")),
         (false, false, true) => Some(format!("{wide} times as wide")),
@@ -131,25 +131,41 @@ pub(super) fn of_framing(
     let turned =
         if placement == Placement::Upright { "" } else { " (once the picture is upright)" };
     let beside = if is_alone { ", and nothing around it" } else { "" };
-    let causes = camera.filter(|_| size.is_some()).map(|camera| {
-        if is_alone { cause_of_part([x, y], camera) } else { causes_of_size([x, y], camera) }
+    let cause = camera.and_then(|camera| match (size.is_some(), moved.is_some()) {
+        (true, _) if is_alone => cause_of_part([x, y], camera),
+        (true, false) => Some(causes_of_size([x, y], camera)),
+        (false, true) if !is_alone => Some(cause_of_shift(camera)),
+        _ => None,
     });
     let all = if is_alone { "the picture" } else { "everything" };
-    format!("shows {all} {what}{turned}{beside}{}", causes.unwrap_or_default())
+    format!("shows {all} {what}{turned}{beside}{}", cause.unwrap_or_default())
 }
 
 /// The image that is so much smaller than the one that is asked for.
-fn cause_of_part([x, y]: [f64; 2], camera: &Camera) -> String {
+fn cause_of_part([x, y]: [f64; 2], camera: &Camera) -> Option<String> {
     let [width, height] = camera.image();
     let [columns, rows] = [x * f64::from(width), y * f64::from(height)].map(f64::round);
-    format!(": does it draw {columns} x {rows} pixels into an image of {width} x {height}?")
+    let question =
+        format!(": does it draw {columns} x {rows} pixels into an image of {width} x {height}?");
+    (x <= 1.0 && y <= 1.0).then_some(question)
+}
+
+fn cause_of_shift(camera: &Camera) -> String {
+    let eye = match camera.projection() {
+        Projection::Perspective => "",
+        Projection::Parallel => "is its eye another, or ",
+    };
+    format!(": {eye}is the middle of its viewport not on the axis of its camera?")
 }
 
 fn of_shift([right, down]: [f64; 2]) -> Option<String> {
+    /// Less than this, in pixels, is what rounding leaves.
+    const LEAST: f64 = 0.1;
     let pixels = |by: f64| if by.abs() == 1.0 { "pixel" } else { "pixels" };
     let part = |by: f64, [less, more]: [&str; 2]| {
         let way = if by < 0.0 { less } else { more };
-        (by != 0.0).then(|| format!("{} {} too far {way}", three_digits(by.abs()), pixels(by)))
+        (by.abs() >= LEAST)
+            .then(|| format!("{} {} too far {way}", three_digits(by.abs()), pixels(by)))
     };
     let parts = [part(right, ["to the left", "to the right"]), part(down, ["up", "down"])];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
@@ -165,7 +181,7 @@ fn causes_of_size([x, y]: [f64; 2], camera: &Camera) -> String {
         return format!(": is {viewport}?");
     }
     let angle = |vh: f64| three_digits(2.0 * (vh / 2.0 / camera.distance()).atan().to_degrees());
-    let angles = (y != 1.0).then(|| {
+    let angles = (x == y).then(|| {
         format!("its field of view {} degrees high, not {}, or ", angle(vh / y), angle(vh))
     });
     let distance = (x == y).then(|| {
@@ -211,6 +227,10 @@ mod tests {
             said([0.5, 0.5], [-4.0, 3.0], true, Upright),
             "shows the picture 0.5 times as large, and 4 pixels too far to the left and 3 pixels too far down, and nothing \
              around it: does it draw 8 x 6 pixels into an image of 16 x 12?"
+        );
+        assert_eq!(
+            said([0.9998, 1.0], [2.0, 0.02], false, Upright),
+            "shows everything 2 pixels too far to the right: is the middle of its viewport not on the axis of its camera?"
         );
     }
 

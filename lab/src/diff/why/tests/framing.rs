@@ -1,17 +1,13 @@
 //! Pictures of another size or in another place.
 
 use super::*;
+use crate::common::Orientation;
 
-/// What is found in the file whose pixel `(i, j)` shows what `number` says of it.
-fn finding(view: &View, number: impl Fn([isize; 2]) -> Option<u64>, of_ids: bool) -> Finding {
+/// What is found in the file of ids whose pixel `(i, j)` shows what `number` says of it.
+fn finding(view: &View, number: impl Fn([isize; 2]) -> Option<u64>) -> Finding {
     let [width, height] = view.camera.image().map(|side| isize::try_from(side).unwrap());
     let pixels = (0..height).flat_map(|i| (0..width).map(move |j| [i, j]));
-    let ids: Vec<Option<u64>> = pixels.map(number).collect();
-    let content = if of_ids {
-        Content::Ids(ids)
-    } else {
-        Content::Mask(ids.iter().map(Option::is_some).collect::<Vec<_>>().into())
-    };
+    let content = Content::Ids(pixels.map(number).collect());
     find_conventions(view, &Buffer::new(view.camera.image(), 1, content)).unwrap().finding
 }
 
@@ -38,12 +34,12 @@ fn a_picture_that_is_moved_is_named_with_its_placement_and_its_numbers() {
     with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
         let truth = true_ids(view);
         let moved = Framing { shift: [5.0, 2.0], is_alone: true, ..Framing::default() };
-        let found = finding(view, |[i, j]| truth([i - 2, j - 5]), true);
+        let found = finding(view, |[i, j]| truth([i - 2, j - 5]));
         assert_eq!((only(&found).convention.framing, only(&found).remaining), (moved, 0));
-        let counted = finding(view, |[i, j]| truth([i - 2, j - 5]).map(|id| id + 1), true);
+        let counted = finding(view, |[i, j]| truth([i - 2, j - 5]).map(|id| id + 1));
         assert_eq!(only(&counted).convention, only(&found).convention);
         assert_eq!(only(&counted).encoding.ids, IdEncoding::CountedFrom(1));
-        let flipped = finding(view, |[i, j]| truth([87 - i - 2, j - 5]), true);
+        let flipped = finding(view, |[i, j]| truth([87 - i - 2, j - 5]));
         let expected = only(&found).convention.with(Change::Placement(Placement::UpsideDown));
         assert_eq!((only(&flipped).convention, only(&flipped).remaining), (expected, 0));
     });
@@ -53,7 +49,7 @@ fn a_picture_that_is_moved_is_named_with_its_placement_and_its_numbers() {
 fn a_picture_of_half_its_size_in_a_corner_is_named() {
     with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
         let truth = true_ids(view);
-        let found = finding(view, |[i, j]| truth([2 * i, 2 * j]), true);
+        let found = finding(view, |[i, j]| truth([2 * i, 2 * j]));
         let Framing { scale, shift, is_alone } = only(&found).convention.framing;
         assert!(is_alone && scale.iter().all(|scale| (scale - 0.5).abs() < 0.005), "{scale:?}");
         // The sample of each fourth pixel is a quarter of a pixel from the middle of the four.
@@ -62,20 +58,19 @@ fn a_picture_of_half_its_size_in_a_corner_is_named() {
     });
 }
 
-/// The ids, or the mask, that a renderer of this camera writes for the scene of the view.
-fn finding_of_camera(view: &View, description: CameraDescription, of_ids: bool) -> Finding {
+/// What is found in the ids that a renderer of this camera writes for the scene of the view.
+fn finding_of_camera(view: &View, description: CameraDescription) -> Finding {
     let camera = Camera::new(description).unwrap();
-    finding(view, true_ids(&View::new(view.scene, &camera)), of_ids)
+    finding(view, true_ids(&View::new(view.scene, &camera)))
 }
 
 #[test]
-fn another_size_of_everything_is_named_in_ids_and_in_masks() {
+fn another_size_of_everything_is_named() {
     heap(Projection::Perspective, [96, 66], |view| {
         let description = *view.camera.description();
         for factor in [0.6, 0.9, 1.07_f32] {
             let distance = description.distance * factor;
-            let found =
-                finding_of_camera(view, CameraDescription { distance, ..description }, true);
+            let found = finding_of_camera(view, CameraDescription { distance, ..description });
             let Framing { scale, shift, is_alone } = only(&found).convention.framing;
             assert!(
                 scale[0] == scale[1] && (scale[0] - f64::from(factor)).abs() < 2e-3,
@@ -84,16 +79,6 @@ fn another_size_of_everything_is_named_in_ids_and_in_masks() {
             assert_eq!((shift, is_alone), ([0.0; 2], false));
         }
     });
-    // A teapot before nothing.
-    let loaded = scenes::load("lecture").unwrap();
-    let teapot = crate::common::Scene::new(vec![loaded.scene.objects()[0].clone()]).unwrap();
-    let description = CameraDescription { image: [240, 180], ..loaded.camera };
-    let camera = Camera::new(description).unwrap();
-    let view = View::new(&teapot, &camera);
-    let smaller = CameraDescription { distance: 1.7, ..description };
-    let found = finding_of_camera(&view, smaller, false);
-    let scale = only(&found).convention.framing.scale;
-    assert!(scale.iter().all(|scale| (scale - 0.85).abs() < 0.01), "{scale:?}");
 }
 
 #[test]
@@ -102,10 +87,25 @@ fn another_eye_is_no_framing() {
         let description = *view.camera.description();
         for by in [[0.3, 0.0, 0.0], [0.0, 0.4, 0.0], [0.5, -0.2, -1.0], [0.0, 0.0, 0.7]] {
             let eye = description.eye + crate::common::glam::Vec3::from_array(by);
-            let found = finding_of_camera(view, CameraDescription { eye, ..description }, true);
+            let found = finding_of_camera(view, CameraDescription { eye, ..description });
             if let Finding::Explained(found) = &found {
                 assert!(found.iter().all(|one| !one.convention.is_framed()), "{by:?} {found:?}");
             }
         }
+    });
+}
+
+#[test]
+fn parallel_rays_from_another_eye_are_told_as_a_shift_alone() {
+    with_scene(&coarse_lecture(), [264, 176], Projection::Parallel, |view| {
+        let description = *view.camera.description();
+        let by = crate::common::glam::Vec3::new(0.3, 0.2, 0.0);
+        let Orientation::LookAt { target, up } = description.orientation else { panic!() };
+        let orientation = Orientation::LookAt { target: target + by, up };
+        let moved = CameraDescription { eye: description.eye + by, orientation, ..description };
+        let found = finding_of_camera(view, moved);
+        let Framing { scale, shift, is_alone } = only(&found).convention.framing;
+        assert_eq!((scale, is_alone), ([1.0; 2], false));
+        assert!(shift[0] < -1.0 && shift[1] > 0.5, "{shift:?}");
     });
 }
