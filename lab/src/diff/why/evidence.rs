@@ -16,8 +16,8 @@ pub(super) fn no_evidence(view: &View, observed: &Observed, truth: &Drawn) -> Op
     let seen = truth.ids.iter().filter(|&&id| id != NO_PRIMITIVE).count();
     if covered == 0 {
         Some(
-            "the file covers nothing: a renderer that looks the other way (along +w) or from another place, that culls or \
-             clips everything, or that never hits writes that"
+            "the file covers nothing, as where a renderer looks the other way (along +w) or from another place, culls or \
+             clips everything, or never hits"
                 .into(),
         )
     } else if seen == 0 {

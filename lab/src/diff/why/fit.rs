@@ -13,11 +13,12 @@ use std::collections::BTreeMap;
 /// Fewer primitives may lie so by accident.
 const FEWEST_PRIMITIVES: usize = 3;
 
-/// A framing, and how many primitives tell it.
+/// A framing, and how well the places of primitives tell it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fit {
     pub(super) framing: Framing,
-    pub(super) primitives: usize,
+    /// The lesser one of the correlations along both axes: 1 where all places lie on a line.
+    pub(super) correlation: f64,
 }
 
 /// Where a number lies in a picture.
@@ -91,13 +92,13 @@ pub(super) fn framing_of_file(
         return None;
     }
     let [x, y] = [0, 1].map(|axis| line(&pairs, axis));
-    let ([x, right], [y, down]) = (x?, y?);
+    let ([x, right, of_x], [y, down, of_y]) = (x?, y?);
     let framing = Framing { scale: [x, y], shift: [right, down], is_alone: false };
-    Some(Fit { framing, primitives: pairs.len() })
+    Some(Fit { framing, correlation: of_x.min(of_y) })
 }
 
-/// The scale and the shift along one axis, where the places in both pictures lie on a line, but for what pixels round.
-fn line(pairs: &[[Spot; 2]], axis: usize) -> Option<[f64; 2]> {
+/// The scale, the shift and the correlation along one axis, where the places in both pictures lie on a line, but for what pixels round.
+fn line(pairs: &[[Spot; 2]], axis: usize) -> Option<[f64; 3]> {
     let weight = |[own, other]: &[Spot; 2]| own.pixels.min(other.pixels);
     let all: f64 = pairs.iter().map(weight).sum();
     let middles = [0, 1].map(|side: usize| {
@@ -115,8 +116,8 @@ fn line(pairs: &[[Spot; 2]], axis: usize) -> Option<[f64; 2]> {
         other_square += weight(pair) * (other * other + other_spread * other_spread);
     }
     let scale = both / own_square;
-    let is_line = both > LEAST * (own_square * other_square).sqrt();
-    is_line.then(|| [scale, middles[1] - scale * middles[0]])
+    let correlation = both / (own_square * other_square).sqrt();
+    (correlation > LEAST).then(|| [scale, middles[1] - scale * middles[0], correlation])
 }
 
 #[cfg(test)]
@@ -132,7 +133,7 @@ mod tests {
             spot
         };
         let pairs = [-3.0, 0.5, 7.0].map(|at: f64| [spot(at, 1.0), spot(1.5 * at - 2.0, 1.5)]);
-        assert_eq!(line(&pairs, 0), Some([1.5, -2.0]));
+        assert_eq!(line(&pairs, 0), Some([1.5, -2.0, 1.0]));
         // What has no extent along an axis has no scale there.
         let flat = [1.0, 1.0, 1.0].map(|at: f64| [spot(at, 0.0), spot(at, 0.0)]);
         assert_eq!(line(&flat, 0), None);

@@ -53,7 +53,7 @@ impl Search<'_> {
         Some(best).filter(|best| best.convention.is_framed())
     }
 
-    /// The framing that most primitives tell. In a picture of another size, numbers say nothing yet about how they count.
+    /// The framing that primitives tell best. In a picture of another size, numbers say nothing yet about how they count.
     fn fit(&self, candidate: &Candidate) -> Option<Framing> {
         let drawn = self.whole(&candidate.convention);
         let expected = Expected::new(self.view, &candidate.convention, &drawn);
@@ -62,6 +62,7 @@ impl Search<'_> {
             let encoding = Encoding { ids, ..candidate.encoding };
             framing_of_file(&expected, self.observed, candidate.convention.placement, &encoding)
         });
-        fits.max_by_key(|fit| fit.primitives).map(|Fit { framing, .. }| framing)
+        let best = fits.max_by(|one, other| one.correlation.total_cmp(&other.correlation));
+        best.map(|Fit { framing, .. }| framing)
     }
 }

@@ -82,6 +82,17 @@ fn another_size_of_everything_is_named() {
 }
 
 #[test]
+fn a_small_change_of_size_is_not_taken_for_other_numbers() {
+    with_scene(&coarse_lecture(), [264, 176], Projection::Perspective, |view| {
+        let description = *view.camera.description();
+        let distance = description.distance * 1.01;
+        let found = finding_of_camera(view, CameraDescription { distance, ..description });
+        let scale = only(&found).convention.framing.scale;
+        assert!(scale[0] == scale[1] && (scale[0] - 1.01).abs() < 1e-3, "{scale:?}");
+    });
+}
+
+#[test]
 fn another_eye_is_no_framing() {
     with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
         let description = *view.camera.description();
