@@ -23,6 +23,7 @@ pub(super) struct ViewingRays {
     extent: f64,
     /// How many rows and columns of rays a pixel has.
     samples: u32,
+    /// The camera with these axes and this projection; its distance and its viewport may be others than the rays'.
     camera: Camera,
 }
 
@@ -41,17 +42,14 @@ impl ViewingRays {
         let [vw, vh] = [0, 1]
             .map(|axis| stretched(field[axis], camera.viewport()[axis], stated.viewport()[axis]));
         let projection = convention.rays.projection(camera.projection());
-        #[expect(clippy::cast_possible_truncation, reason = "a camera's distance is an f32")]
-        let distance = stretched(
-            convention.field.distance(stated).into(),
-            camera.distance(),
-            stated.distance(),
-        ) as f32;
         let length = match projection {
-            Projection::Perspective => f64::from(distance),
+            Projection::Perspective => {
+                let of_field = convention.field.distance(stated);
+                stretched(of_field, camera.distance(), stated.distance())
+            }
             Projection::Parallel => 1.0,
         };
-        let description = CameraDescription { projection, distance, ..*camera.description() };
+        let description = CameraDescription { projection, ..*camera.description() };
         let framing = convention.framing;
         let coordinates = |sampling: super::convention::Sampling, axis: usize| {
             let (side, n) = ([vw, vh][axis], [width, height][axis]);
@@ -81,8 +79,7 @@ impl ViewingRays {
             distance,
             spread: convention.rays != Rays::OneOrigin,
             samples: 1,
-            camera: Camera::new(description)
-                .expect("only the projection and the distance are others"),
+            camera: Camera::new(description).expect("only the projection is another"),
         }
     }
 
@@ -249,6 +246,21 @@ mod tests {
         let rays = ViewingRays::new(&camera, &corner);
         assert_eq!(rays.x.values, [-0.5, -0.25, 0.0, 0.25]);
         assert_eq!(rays.y.values, camera.sample_grid(1).y());
+    }
+
+    #[test]
+    fn rays_that_no_camera_could_state_are_rays() {
+        // With d = 1, a viewport of this size would be too large.
+        let stated = CameraDescription {
+            distance: 1e9,
+            viewport: [1e14, 1e14],
+            ..*Camera::canonical(2, 4).description()
+        };
+        let camera = Camera::new(stated).unwrap();
+        for change in Change::of_rendering(&camera) {
+            let ray = ViewingRays::new(&camera, &Convention::default().with(change)).ray(1, 3);
+            assert!(ray.direction.is_finite(), "{change:?}");
+        }
     }
 
     #[test]

@@ -127,8 +127,8 @@ impl Field {
     }
 
     /// The distance of the viewport of a perspective camera.
-    pub fn distance(self, camera: &Camera) -> f32 {
-        if self == Field::DistanceLeftOut { 1.0 } else { camera.description().distance }
+    pub fn distance(self, camera: &Camera) -> f64 {
+        if self == Field::DistanceLeftOut { 1.0 } else { camera.distance() }
     }
 
     /// The other fields of the same size, if it is not the stated one.

@@ -62,10 +62,10 @@ fn of_field(field: Field) -> &'static str {
     match field {
         Field::AsStated => "has the camera's viewport",
         Field::VerticalAsHorizontal => {
-            "takes the vertical field of view for the horizontal one: its viewport is vh wide and vh H/W high"
+            "takes vh, or the vertical field of view, for the width: its viewport is vh wide and vh H/W high"
         }
         Field::HorizontalAsVertical => {
-            "takes the horizontal field of view for the vertical one: its viewport is vw high and vw W/H wide"
+            "takes vw, or the horizontal field of view, for the height: its viewport is vw high and vw W/H wide"
         }
         Field::AspectLeftOut => {
             "leaves out the form of the image: its viewport is vh wide as well; multiply x by W/H"
