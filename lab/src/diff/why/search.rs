@@ -368,12 +368,12 @@ impl Search<'_> {
         let ours = self.drawn_whole(placed);
         all.extend(self.with_suggestions(&ours));
         all.push(ours);
-        let framed = self.framed();
-        all.extend(framed);
         // More parts cannot do better than what explains all.
         if starts[0].score.differing == 0 {
             return all;
         }
+        let framed = self.framed();
+        all.extend(framed);
         // Where many samples are ties, conventions that move them do better than ours until the rule for ties is found.
         for ours in [Convention::default(), placed] {
             if starts.iter().all(|one| one.convention != ours) {
