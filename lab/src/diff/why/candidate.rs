@@ -36,13 +36,12 @@ impl Candidate {
             (true, false) => 10,
             (false, _) => 1,
         };
-        let number_left = if self.encoding.has_own_numbers() { 50 } else { 1 };
+        let is_measured = self.encoding.has_own_numbers() || self.convention.is_framed();
         // Another eye, or nearly the same field of view, sees much of what ours sees.
-        let is_posed = self.convention.pose != Pose::AsStated;
-        let camera_left = if is_posed || self.convention.field.is_of_angle() { 50 } else { 1 };
-        let framing_left = if self.convention.is_framed() { 50 } else { 1 };
-        let own_left = number_left.max(camera_left).max(framing_left);
-        let least = parts_left.max(omission_left).max(own_left);
+        let is_close =
+            self.convention.pose != Pose::AsStated || self.convention.field.is_of_angle();
+        let close_left = if is_measured || is_close { 50 } else { 1 };
+        let least = parts_left.max(omission_left).max(close_left);
         let most_mistakes = if is_mask { 2 } else { 3 };
         mistakes <= most_mistakes
             && least * self.score.differing <= ours.differing

@@ -229,13 +229,8 @@ impl Change {
         self.axis() != other.axis() && !is_rare(self) && !is_rare(other)
     }
 
-    /// Whether it has a number that only a picture suggests: it fits a part of any picture.
+    /// Whether it leaves something out, by a number that only a picture suggests: it fits a part of any picture.
     pub(super) fn has_own_number(self) -> bool {
-        self.leaves_out() || matches!(self, Change::Framing(_))
-    }
-
-    /// Whether it leaves out a primitive, an object, or what lies beyond a plane.
-    fn leaves_out(self) -> bool {
         matches!(self, Change::Near(_) | Change::Far(_) | Change::Omission(_))
     }
 
@@ -307,7 +302,7 @@ impl Convention {
 
     /// Whether something is not drawn: a primitive, an object, or what lies beyond a plane.
     pub fn leaves_out(&self) -> bool {
-        self.changes().into_iter().any(Change::leaves_out)
+        self.changes().into_iter().any(Change::has_own_number)
     }
 
     /// Whether a part of the picture is blank.

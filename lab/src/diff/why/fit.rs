@@ -80,14 +80,8 @@ pub(super) fn framing_of_file(
             theirs.entry(number).or_default().add(place, is_at_border);
         }
     });
-    let whole = |spot: &&Spot| !spot.is_cut;
-    let pairs: Vec<[Spot; 2]> = ours
-        .iter()
-        .filter_map(|(number, own)| {
-            let other = theirs.get(number).filter(whole)?;
-            Some(own).filter(whole).map(|own| [*own, *other])
-        })
-        .collect();
+    let both = ours.iter().filter_map(|(number, own)| Some([*own, *theirs.get(number)?]));
+    let pairs: Vec<[Spot; 2]> = both.filter(|pair| pair.iter().all(|spot| !spot.is_cut)).collect();
     if pairs.len() < FEWEST_PRIMITIVES {
         return None;
     }
@@ -97,7 +91,8 @@ pub(super) fn framing_of_file(
     Some(Fit { framing, correlation: of_x.min(of_y) })
 }
 
-/// The scale, the shift and the correlation along one axis, where the places in both pictures lie on a line, but for what pixels round.
+/// The scale, the shift and the correlation along one axis, where the places in both pictures lie on a line, but for what
+/// pixels round.
 fn line(pairs: &[[Spot; 2]], axis: usize) -> Option<[f64; 3]> {
     let weight = |[own, other]: &[Spot; 2]| own.pixels.min(other.pixels);
     let all: f64 = pairs.iter().map(weight).sum();
