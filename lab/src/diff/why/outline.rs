@@ -186,12 +186,16 @@ pub(super) struct Area {
 
 /// The pixels whose samples a triangle may cover, and `margin` pixels around them.
 pub(super) fn area_of_triangle(corners: &[DVec3; 3], rays: &ViewingRays, margin: f64) -> Area {
+    let places = corners.map(|corner| project(corner, rays));
+    if places.iter().all(|place| matches!(place, Place::Behind)) {
+        return NO_AREA;
+    }
     let [mut low, mut high] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    for &corner in corners {
-        let Some(place) = project(corner, rays) else { return whole(rays) };
+    for place in places {
+        let Place::Ahead(at) = place else { return whole(rays) };
         for axis in 0..2 {
-            low[axis] = low[axis].min(place[axis]);
-            high[axis] = high[axis].max(place[axis]);
+            low[axis] = low[axis].min(at[axis]);
+            high[axis] = high[axis].max(at[axis]);
         }
     }
     within(low, high, rays, margin)
@@ -201,8 +205,9 @@ pub(super) fn area_of_triangle(corners: &[DVec3; 3], rays: &ViewingRays, margin:
 pub(super) fn area_of_sphere(center: DVec3, radius: f64, rays: &ViewingRays, margin: f64) -> Area {
     // Wider than the sphere by far more than roundoff.
     match project_ball(center, radius * 1.0001, rays) {
-        Some([low, high]) => within(low, high, rays, margin),
-        None => whole(rays),
+        Place::Ahead([low, high]) => within(low, high, rays, margin),
+        Place::Behind => NO_AREA,
+        Place::Beside => whole(rays),
     }
 }
 
@@ -213,49 +218,81 @@ fn within(low: [f64; 2], high: [f64; 2], rays: &ViewingRays, margin: f64) -> Are
     }
 }
 
+/// No pixel.
+const NO_AREA: Area = Area { rows: 0..0, columns: 0..0 };
+
 /// All pixels.
 pub(super) fn whole(rays: &ViewingRays) -> Area {
     Area { rows: 0..rays.y.len(), columns: 0..rays.x.len() }
 }
 
-/// The place on the viewport of a point; `None` if it lies beside or behind the eye.
-fn project(point: DVec3, rays: &ViewingRays) -> Option<[f64; 2]> {
+/// Where something lies, as seen along the axis.
+enum Place<T> {
+    /// In front of the eye, here on the viewport.
+    Ahead(T),
+    /// Behind the eye: no ray comes there.
+    Behind,
+    /// Beside the eye, or so near to its plane that rounding may move it by more than a small part of a pixel.
+    Beside,
+}
+
+impl<T> Place<T> {
+    /// The place of what lies between two depths along the axis; `length` bounds its distance from the eye.
+    fn new(
+        [near, far]: [f64; 2],
+        length: f64,
+        rays: &ViewingRays,
+        ahead: impl FnOnce() -> T,
+    ) -> Self {
+        let clear = length / rays.distance.abs() * 1e-9;
+        if near > clear {
+            Place::Ahead(ahead())
+        } else if far < -clear {
+            Place::Behind
+        } else {
+            Place::Beside
+        }
+    }
+
+    /// The place of what has no depth, as parallel rays come from everywhere; they are one where they are not spread.
+    fn parallel(rays: &ViewingRays, at: T) -> Self {
+        if rays.spread { Place::Ahead(at) } else { Place::Beside }
+    }
+}
+
+/// The place of a point.
+fn project(point: DVec3, rays: &ViewingRays) -> Place<[f64; 2]> {
     let place = [point.dot(rays.u), point.dot(rays.v)];
     if rays.projection == Projection::Parallel {
-        return rays.spread.then_some(place);
+        return Place::parallel(rays, place);
     }
     // point = t·D: its depth along the axis is t·d.
     let depth = -point.dot(rays.w) / rays.distance;
-    is_in_front(depth, at_least_length(point), rays).then(|| place.map(|at| at / depth))
+    let length = at_least_length(point);
+    Place::new([depth, depth], length, rays, || place.map(|at| at / depth))
 }
 
-/// Whether the nearest part of something, at this depth along the axis, lies in front of the eye, and so far that
-/// rounding moves it by much less than a pixel.
-fn is_in_front(near: f64, length: f64, rays: &ViewingRays) -> bool {
-    near > length / rays.distance.abs() * 1e-9
-}
-
-/// The least and the largest `x` and `y` of a ball on the viewport; `None` if parts of it lie beside or behind the eye.
-fn project_ball(point: DVec3, radius: f64, rays: &ViewingRays) -> Option<[[f64; 2]; 2]> {
+/// The place of a ball: its least and its largest `x` and `y`.
+fn project_ball(point: DVec3, radius: f64, rays: &ViewingRays) -> Place<[[f64; 2]; 2]> {
     let place = [point.dot(rays.u), point.dot(rays.v)];
     if rays.projection == Projection::Parallel {
-        return rays.spread.then(|| [place.map(|at| at - radius), place.map(|at| at + radius)]);
+        let ends = [place.map(|at| at - radius), place.map(|at| at + radius)];
+        return Place::parallel(rays, ends);
     }
     let depth = -point.dot(rays.w) / rays.distance;
     let [near, far] = [-1.0, 1.0].map(|side| depth + side * radius / rays.distance.abs());
-    if !is_in_front(near, at_least_length(point) + radius, rays) {
-        return None;
-    }
-    let low = place.map(|at| ((at - radius) / near).min((at - radius) / far));
-    let high = place.map(|at| ((at + radius) / near).max((at + radius) / far));
-    Some([low, high])
+    Place::new([near, far], at_least_length(point) + radius, rays, || {
+        let low = place.map(|at| ((at - radius) / near).min((at - radius) / far));
+        let high = place.map(|at| ((at + radius) / near).max((at + radius) / far));
+        [low, high]
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::common::Camera;
-    use crate::diff::why::convention::Convention;
+    use crate::common::{Camera, CameraDescription};
+    use crate::diff::why::convention::{Change, Convention, Look};
 
     #[test]
     fn a_triangle_s_functions_have_their_values() {
@@ -271,5 +308,43 @@ mod tests {
         assert_eq!(outline.t(-0.1, -0.1).0, 2.0);
         let area = area_of_triangle(&corners, &rays, 0.0);
         assert_eq!(area, Area { rows: 2..6, columns: 2..6 });
+    }
+
+    #[test]
+    fn what_lies_behind_the_eye_covers_no_pixel() {
+        let forward = Convention::default();
+        let backward = forward.with(Change::Look(Look::Backward));
+        let rays = |convention| ViewingRays::new(&Camera::canonical(8, 8), convention);
+        let [forward, backward] = [forward, backward].map(|convention| rays(&convention));
+        let triangle = |depths: [f64; 3]| {
+            let [a, b, c] = depths;
+            [DVec3::new(0.0, 0.0, -a), DVec3::new(0.25, 0.0, -b), DVec3::new(0.0, 0.25, -c)]
+        };
+        let areas = |depths: [f64; 3]| {
+            let corners = triangle(depths);
+            [&forward, &backward].map(|rays| area_of_triangle(&corners, rays, 2.0))
+        };
+        assert_eq!(areas([-1.0, -2.0, -1.0])[0], NO_AREA);
+        assert_ne!(areas([-1.0, -2.0, -1.0])[1], NO_AREA);
+        assert_eq!(areas([1.0, 2.0, 1.0])[1], NO_AREA);
+        // One corner beside the eye, or before it: rays may meet the triangle anywhere.
+        for near in [0.0, 1.0, -1e-12, 1e-12] {
+            assert_eq!(areas([-1.0, near, -2.0]), [whole(&forward), whole(&backward)]);
+        }
+        let ball = |z: f64, radius: f64| {
+            let center = DVec3::new(0.25, 0.0, z);
+            [&forward, &backward].map(|rays| area_of_sphere(center, radius, rays, 2.0))
+        };
+        assert_eq!(ball(2.0, 1.5)[0], NO_AREA);
+        assert_eq!(ball(-2.0, 1.5)[1], NO_AREA);
+        assert_eq!(ball(2.0, 2.0), [whole(&forward), whole(&backward)]);
+        // Parallel rays come from everywhere.
+        let parallel = CameraDescription {
+            projection: Projection::Parallel,
+            ..*Camera::canonical(8, 8).description()
+        };
+        let parallel = Camera::new(parallel).unwrap();
+        let parallel = ViewingRays::new(&parallel, &Convention::default());
+        assert_ne!(area_of_triangle(&triangle([-1.0; 3]), &parallel, 0.0), NO_AREA);
     }
 }
