@@ -264,30 +264,34 @@ impl Convention {
 
     /// The choices that are not ours, in the order of the axes.
     pub fn changes(&self) -> Vec<Change> {
+        self.each_change().collect()
+    }
+
+    fn each_change(self) -> impl Iterator<Item = Change> {
         let ours = Convention::default();
         let all = [
-            Change::Placement(self.placement),
-            Change::Columns(self.columns),
-            Change::Rows(self.rows),
-            Change::Pose(self.pose),
-            Change::Field(self.field),
-            Change::Framing(self.framing),
-            Change::Look(self.look),
-            Change::Rays(self.rays),
-            Change::Edges(self.edges),
-            Change::Faces(self.faces),
-            Change::Depth(self.depth),
+            (self.placement != ours.placement).then_some(Change::Placement(self.placement)),
+            (self.columns != ours.columns).then_some(Change::Columns(self.columns)),
+            (self.rows != ours.rows).then_some(Change::Rows(self.rows)),
+            (self.pose != ours.pose).then_some(Change::Pose(self.pose)),
+            (self.field != ours.field).then_some(Change::Field(self.field)),
+            (self.framing != ours.framing).then_some(Change::Framing(self.framing)),
+            (self.look != ours.look).then_some(Change::Look(self.look)),
+            (self.rays != ours.rays).then_some(Change::Rays(self.rays)),
+            (self.edges != ours.edges).then_some(Change::Edges(self.edges)),
+            (self.faces != ours.faces).then_some(Change::Faces(self.faces)),
+            (self.depth != ours.depth).then_some(Change::Depth(self.depth)),
+            self.near.map(Change::Near),
+            self.far.map(Change::Far),
+            (self.omission != ours.omission).then_some(Change::Omission(self.omission)),
         ];
-        let planes = [self.near.map(Change::Near), self.far.map(Change::Far)];
-        let all = all.into_iter().chain(planes.into_iter().flatten());
-        let all = all.chain([Change::Omission(self.omission)]);
-        all.filter(|&change| ours.with(change) != ours).collect()
+        all.into_iter().flatten()
     }
 
     /// How many mistakes it takes: the same sampling of columns and rows is one.
     pub(super) fn mistakes(&self) -> usize {
         let is_one = self.columns == self.rows && self.columns != Sampling::default();
-        self.changes().len() - usize::from(is_one)
+        self.each_change().count() - usize::from(is_one)
     }
 
     /// The camera as a renderer with these conventions has it; the stated one where it cannot have the pose.
@@ -302,7 +306,7 @@ impl Convention {
 
     /// Whether something is not drawn: a primitive, an object, or what lies beyond a plane.
     pub fn leaves_out(&self) -> bool {
-        self.changes().into_iter().any(Change::has_own_number)
+        self.each_change().any(Change::has_own_number)
     }
 
     /// Whether a part of the picture is blank.
@@ -317,12 +321,12 @@ impl Convention {
 
     /// Whether it has a change on this axis.
     pub(super) fn has(&self, axis: usize) -> bool {
-        self.changes().into_iter().any(|change| change.axis() == axis)
+        self.each_change().any(|change| change.axis() == axis)
     }
 
     /// The convention without one of its changes.
     pub fn without(&self, change: Change) -> Convention {
-        let others = self.changes().into_iter().filter(|&other| other != change);
+        let others = self.each_change().filter(|&other| other != change);
         others.fold(Convention::default(), Convention::with)
     }
 }

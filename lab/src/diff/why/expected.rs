@@ -9,7 +9,6 @@ use super::renaming::Renaming;
 use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::diff::tolerance::DEPTH_TOLERANCE;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// How far a file differs from a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,11 +108,12 @@ impl<'a> Expected<'a> {
             let id = self.drawn.ids[probe.pixel];
             Some((ids[probe.index]?.checked_sub(id.into())?, id))
         };
-        let counted: BTreeSet<(u64, u32)> = probes.iter().filter_map(difference).collect();
-        let mut numbers: BTreeMap<u64, usize> = BTreeMap::new();
-        counted.into_iter().for_each(|(number, _)| *numbers.entry(number).or_default() += 1);
-        let several = numbers.into_iter().filter(|(number, count)| *number > 1 && *count > 1);
-        let (number, _) = several.max_by_key(|(_, count)| *count)?;
+        let mut counted: Vec<(u64, u32)> = probes.iter().filter_map(difference).collect();
+        counted.sort_unstable();
+        counted.dedup();
+        let of_number = counted.chunk_by(|one, other| one.0 == other.0);
+        let several = of_number.filter(|ids| ids[0].0 > 1 && ids.len() > 1);
+        let (number, _) = several.max_by_key(|ids| ids.len())?[0];
         Some(IdEncoding::CountedFrom(number))
     }
 

@@ -314,8 +314,8 @@ mod tests {
     fn what_lies_behind_the_eye_covers_no_pixel() {
         let forward = Convention::default();
         let backward = forward.with(Change::Look(Look::Backward));
-        let rays = |convention| ViewingRays::new(&Camera::canonical(8, 8), convention);
-        let [forward, backward] = [forward, backward].map(|convention| rays(&convention));
+        let [forward, backward] = [forward, backward]
+            .map(|convention| ViewingRays::new(&Camera::canonical(8, 8), &convention));
         let triangle = |depths: [f64; 3]| {
             let [a, b, c] = depths;
             [DVec3::new(0.0, 0.0, -a), DVec3::new(0.25, 0.0, -b), DVec3::new(0.0, 0.25, -c)]

@@ -116,7 +116,14 @@ pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchEr
     let truth = draw(view, &Convention::default(), Rows::ALL);
     let pixels = u64::from(width) * u64::from(height);
     let ours = score_of_truth(view, &observed, &placements, &truth);
-    let search = Search { view, observed: &observed, placements: &placements, truth: &truth, ours };
+    let search = Search {
+        view,
+        observed: &observed,
+        meanings_of_nothing: observed.meanings_of_nothing(view.scene.primitive_count()),
+        placements: &placements,
+        truth: &truth,
+        ours,
+    };
     Ok(Findings { pixels, differing: ours.differing, finding: search.finding() })
 }
 
@@ -136,6 +143,7 @@ const MOST_EXPLANATIONS: usize = 6;
 struct Search<'a> {
     view: &'a View<'a>,
     observed: &'a Observed,
+    meanings_of_nothing: Vec<NothingEncoding>,
     placements: &'a [Placement],
     truth: &'a Drawn,
     /// How far the file is from the true picture.
@@ -232,12 +240,12 @@ impl Search<'_> {
                 .collect();
             chosen.extend(fresh);
         };
-        candidates.sort_by_key(Candidate::rank);
+        candidates.sort_by_cached_key(Candidate::rank);
         choose(&candidates);
         // Several changes may fit a part of the file, and be refused.
         let is_single = |one: &&Candidate| one.convention.changes().len() <= 1;
         choose(&candidates.iter().filter(is_single).copied().collect::<Vec<_>>());
-        candidates.sort_by_key(|candidate| {
+        candidates.sort_by_cached_key(|candidate| {
             (candidate.score.coverage, parts(&candidate.convention, &candidate.encoding))
         });
         choose(&candidates);
@@ -251,18 +259,13 @@ impl Search<'_> {
         tells_pose && candidate.may_explain(ours, matches!(self.observed.values, Values::Mask(_)))
     }
 
-    fn meanings_of_nothing(&self) -> Vec<NothingEncoding> {
-        self.observed.meanings_of_nothing(self.view.scene.primitive_count())
-    }
-
     /// The best reading of the file for each placement.
     fn placed(&self, convention: Convention, drawn: &Drawn) -> Vec<Candidate> {
         let expected = Expected::new(self.view, &convention, drawn);
-        let meanings = self.meanings_of_nothing();
         let placed = self.placements.iter().map(|&placement| {
             let convention = Convention { placement, ..convention };
-            let readings =
-                meanings.iter().map(|&nothing| self.read(convention, &expected, nothing));
+            let meanings = self.meanings_of_nothing.iter();
+            let readings = meanings.map(|&nothing| self.read(convention, &expected, nothing));
             readings.min_by_key(Candidate::rank).expect("one meaning of nothing is ours")
         });
         placed.collect()
@@ -340,7 +343,7 @@ impl Search<'_> {
         let is_likely = |nothing: &NothingEncoding| {
             *nothing != NothingEncoding::Inverted || !convention.leaves_part_blank()
         };
-        let meanings = self.meanings_of_nothing().into_iter().filter(is_likely);
+        let meanings = self.meanings_of_nothing.iter().copied().filter(is_likely);
         let scored = meanings.flat_map(|nothing| {
             let own = self.read(convention, &expected, nothing);
             // Where primitives have other numbers, more pixels differ than in coverage alone.
