@@ -49,9 +49,10 @@ impl Candidate {
     }
 }
 
-/// How many choices are not ours. A framing counts twice: it says what is seen, and not why.
+/// How many choices are not ours. A framing counts twice, and so does a measured pose: it says what is seen, and not why.
 pub(super) fn parts(convention: &Convention, encoding: &Encoding) -> usize {
-    convention.mistakes() + usize::from(convention.is_framed()) + encoding.parts()
+    let is_measured = convention.is_framed() || convention.is_posed();
+    convention.mistakes() + usize::from(is_measured) + encoding.parts()
 }
 
 /// Whether a hypothesis that leaves `simpler` pixels does as well as one with more parts that leaves `fewest`: the

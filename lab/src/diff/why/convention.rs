@@ -9,6 +9,7 @@ mod omission;
 mod placement;
 mod pose;
 mod sampling;
+mod stance;
 
 pub use field::Field;
 pub use framing::Framing;
@@ -16,6 +17,7 @@ pub use omission::{Between, Clip, NearPlane, Omission, Part, Several, ShapeKind}
 pub use placement::Placement;
 pub use pose::Pose;
 pub use sampling::Sampling;
+pub use stance::{Moved, Stance};
 
 use crate::common::{Camera, Projection};
 use field::fields;
@@ -302,6 +304,11 @@ impl Convention {
     /// Whether the whole picture has another size or place.
     pub(super) fn is_framed(&self) -> bool {
         self.framing != Framing::default()
+    }
+
+    /// Whether its eye and its axes are known from the file alone.
+    pub(super) fn is_posed(&self) -> bool {
+        matches!(self.pose, Pose::Measured(_))
     }
 
     /// Whether something is not drawn: a primitive, an object, or what lies beyond a plane.

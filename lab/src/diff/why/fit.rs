@@ -52,14 +52,34 @@ impl Spot {
     }
 }
 
-/// The framing under which the picture is the file, as far as primitives tell that lie wholly in both. Only files of ids tell: a
-/// mask is one shape, which may as well be an object of another size.
-pub(super) fn framing_of_file(
+/// A primitive that lies wholly in both pictures.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen {
+    pub(super) id: u32,
+    /// In the picture, and in the file.
+    spots: [Spot; 2],
+}
+
+impl Seen {
+    /// The number of its pixels, in the picture in which it has fewer.
+    pub(super) fn weight(&self) -> f64 {
+        self.spots[0].pixels.min(self.spots[1].pixels)
+    }
+
+    /// By how many columns to the right and rows down the middle of its pixels lies from that in our picture.
+    pub(super) fn offset(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.spots[1].middle(axis) - self.spots[0].middle(axis))
+    }
+}
+
+/// The primitives that lie wholly in both pictures. Only files of ids tell: a mask is one shape, which may as well be an object of
+/// another size.
+pub(super) fn seen_in_both(
     expected: &Expected,
     observed: &Observed,
     placement: Placement,
     encoding: &Encoding,
-) -> Option<Fit> {
+) -> Option<Vec<Seen>> {
     let Values::Ids(numbers) = &observed.values else { return None };
     if encoding.ids == IdEncoding::OneToOne {
         return None;
@@ -67,21 +87,37 @@ pub(super) fn framing_of_file(
     let [width, height] = expected.size();
     #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
     let at = |index: usize, side: usize| index as f64 + 0.5 - side as f64 / 2.0;
-    let [mut ours, mut theirs] = [(); 2].map(|()| BTreeMap::<u64, Spot>::new());
+    let mut ours = BTreeMap::<u64, (u32, Spot)>::new();
+    let mut theirs = BTreeMap::<u64, Spot>::new();
     expected.each_pixel(placement, |pixel, index, [row, column]| {
         let place = [at(column, width), at(row, height)];
         let is_at_border = [row, column].contains(&0) || row + 1 == height || column + 1 == width;
         let id = expected.drawn.ids[pixel];
         if id != NO_PRIMITIVE {
             let number = expected.id_number(id, encoding.ids);
-            ours.entry(number).or_default().add(place, is_at_border);
+            let (_, spot) = ours.entry(number).or_insert((id, Spot::default()));
+            spot.add(place, is_at_border);
         }
         if let Some(number) = numbers[index].filter(|_| observed.covered(index, encoding.nothing)) {
             theirs.entry(number).or_default().add(place, is_at_border);
         }
     });
-    let both = ours.iter().filter_map(|(number, own)| Some([*own, *theirs.get(number)?]));
-    let pairs: Vec<[Spot; 2]> = both.filter(|pair| pair.iter().all(|spot| !spot.is_cut)).collect();
+    let both = ours.iter().filter_map(|(number, &(id, own))| {
+        let spots = [own, *theirs.get(number)?];
+        spots.iter().all(|spot| !spot.is_cut).then_some(Seen { id, spots })
+    });
+    Some(both.collect())
+}
+
+/// The framing under which the picture is the file, as far as primitives tell that lie wholly in both.
+pub(super) fn framing_of_file(
+    expected: &Expected,
+    observed: &Observed,
+    placement: Placement,
+    encoding: &Encoding,
+) -> Option<Fit> {
+    let seen = seen_in_both(expected, observed, placement, encoding)?;
+    let pairs: Vec<[Spot; 2]> = seen.into_iter().map(|seen| seen.spots).collect();
     if pairs.len() < FEWEST_PRIMITIVES {
         return None;
     }

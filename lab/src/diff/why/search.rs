@@ -6,6 +6,7 @@
 //! tells planes, what is not drawn, and the size and the place of the whole picture.
 
 mod framing;
+mod pose;
 
 use super::candidate::{Candidate, as_good, parts};
 use super::convention::{Change, Convention, Placement, Pose};
@@ -136,6 +137,9 @@ const MOST_PRIMITIVES: u64 = 40_000_000;
 const FINALISTS: usize = 8;
 /// The most changes that are added to one of them.
 const MOST_ADDED: usize = 3;
+
+/// One of so many differing pixels may be left where the eye is not sought.
+const FEW: u64 = 50;
 
 /// The most explanations that are named.
 const MOST_EXPLANATIONS: usize = 6;
@@ -393,6 +397,10 @@ impl Search<'_> {
         };
         if possible(&all).is_none_or(|best| best.score.differing * 2 > differing) {
             all.extend(self.tie_rules(placed, &changes));
+        }
+        // What explains all but a few pixels says more than where the eye is.
+        if possible(&all).is_none_or(|best| best.score.differing * FEW > differing) {
+            all.extend(self.posed());
         }
         let best = possible(&all);
         if let Some(best) = best {

@@ -2,6 +2,7 @@
 
 mod blank;
 mod framing;
+mod stance;
 
 use super::draw::{Rows, draw};
 use super::*;

@@ -1,10 +1,11 @@
 //! Where the eye is, and how the axes of the camera lie.
 
+use super::stance::Stance;
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::{Camera, CameraDescription, Orientation, Projection};
 
 /// The eye and the axes of the camera, `u`, `v` and `w`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Pose {
     /// The camera's.
     #[default]
@@ -39,10 +40,12 @@ pub enum Pose {
     OnlyRightNormalized,
     /// No axis has unit length.
     NothingNormalized,
+    /// Others, for which no reason is known: the file tells them.
+    Measured(Stance),
 }
 
 impl Pose {
-    /// All poses, ours first.
+    /// All poses that have a reason, ours first.
     pub const ALL: [Pose; 16] = [
         Pose::AsStated,
         Pose::EyeLeftOut,
@@ -68,6 +71,7 @@ impl Pose {
     pub fn camera(self, stated: &Camera) -> Option<Camera> {
         let with = match self {
             Pose::AsStated => *stated.description(),
+            Pose::Measured(stance) => stance.camera(stated),
             Pose::EyeLeftOut
             | Pose::EyeAdded
             | Pose::EyeAfterTurn
@@ -206,7 +210,7 @@ fn lengths(stated: &Camera) -> Option<[f64; 2]> {
     Some([direction.length(), up.as_dvec3().cross(stated.w()).length()])
 }
 
-fn frame(axes: [DVec3; 3]) -> Orientation {
+pub(super) fn frame(axes: [DVec3; 3]) -> Orientation {
     let [u, v, w] = axes.map(DVec3::as_vec3);
     Orientation::Frame { u, v, w }
 }

@@ -8,6 +8,7 @@ use crate::wording::three_digits;
 pub(super) fn of_pose(pose: Pose) -> &'static str {
     match pose {
         Pose::AsStated => "has the camera's eye and axes",
+        Pose::Measured(_) => "has another eye, or other axes",
         Pose::EyeLeftOut => {
             "looks from the origin of the world: begin its rays at the eye, or subtract the eye from each vertex"
         }

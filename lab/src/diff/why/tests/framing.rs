@@ -4,7 +4,7 @@ use super::*;
 use crate::common::Orientation;
 
 /// What is found in the file of ids whose pixel `(i, j)` shows what `number` says of it.
-fn finding(view: &View, number: impl Fn([isize; 2]) -> Option<u64>) -> Finding {
+pub(super) fn finding(view: &View, number: impl Fn([isize; 2]) -> Option<u64>) -> Finding {
     let [width, height] = view.camera.image().map(|side| isize::try_from(side).unwrap());
     let pixels = (0..height).flat_map(|i| (0..width).map(move |j| [i, j]));
     let content = Content::Ids(pixels.map(number).collect());
@@ -12,7 +12,7 @@ fn finding(view: &View, number: impl Fn([isize; 2]) -> Option<u64>) -> Finding {
 }
 
 /// The true id at any row and column; nothing beside the picture.
-fn true_ids(view: &View) -> impl Fn([isize; 2]) -> Option<u64> + use<> {
+pub(super) fn true_ids(view: &View) -> impl Fn([isize; 2]) -> Option<u64> + use<> {
     let drawn = draw(view, &Convention::default(), Rows::ALL);
     let [width, height] = view.camera.image().map(|side| isize::try_from(side).unwrap());
     move |[i, j]| {
@@ -23,7 +23,7 @@ fn true_ids(view: &View) -> impl Fn([isize; 2]) -> Option<u64> + use<> {
     }
 }
 
-fn only(finding: &Finding) -> &Explanation {
+pub(super) fn only(finding: &Finding) -> &Explanation {
     let Finding::Explained(found) = finding else { panic!("{finding:?}") };
     assert_eq!(found.len(), 1, "{found:?}");
     &found[0]
@@ -59,7 +59,7 @@ fn a_picture_of_half_its_size_in_a_corner_is_named() {
 }
 
 /// What is found in the ids that a renderer of this camera writes for the scene of the view.
-fn finding_of_camera(view: &View, description: CameraDescription) -> Finding {
+pub(super) fn finding_of_camera(view: &View, description: CameraDescription) -> Finding {
     let camera = Camera::new(description).unwrap();
     finding(view, true_ids(&View::new(view.scene, &camera)))
 }

@@ -1,0 +1,217 @@
+//! The search for an eye and axes that no mistake of the list gives.
+//!
+//! Where the eye stands elsewhere, or looks elsewhere, the middles of the pixels of each primitive lie elsewhere, too. By
+//! least squares (the method of Gauss and Newton), the eye and the axes are moved until they lie where the file has
+//! them. Both pictures are of pixels, and hide the same primitives where they agree: what is measured has no error of its own.
+
+use super::super::candidate::{Candidate, as_good};
+use super::super::convention::{Change, Convention, Moved, Placement, Pose, Stance};
+use super::super::encoding::{Encoding, IdEncoding, NothingEncoding};
+use super::super::expected::Expected;
+use super::super::fit::{Seen, seen_in_both};
+use super::{FEW, Search};
+use crate::common::Primitive;
+use crate::common::glam::DVec3;
+use rayon::prelude::*;
+
+/// So often the eye and the axes are moved.
+const MOST_STEPS: usize = 12;
+
+/// In so many placements they are sought.
+const MOST_PLACEMENTS: usize = 2;
+
+/// For each way in which a stance is free, so many primitives must be seen: each tells two numbers.
+const PRIMITIVES_EACH: usize = 2;
+
+impl Search<'_> {
+    /// Our conventions with the eye and the axes that the file shows: of those that explain it, one with little that is moved.
+    pub(super) fn posed(&self) -> Option<Candidate> {
+        let by_ours = self.ours.differing;
+        let simple = Moved::simple(self.view.camera);
+        let starts = self.starts_of_pose();
+        let tries: Vec<(&Candidate, Moved)> = starts
+            .iter()
+            .flat_map(|start| simple.iter().map(move |&moved| (start, moved)))
+            .collect();
+        let mut found: Vec<Candidate> =
+            tries.par_iter().filter_map(|(start, moved)| self.posed_so(start, *moved)).collect();
+        let fewest = |found: &[Candidate]| found.iter().map(|one| one.score.differing).min();
+        if fewest(&found).is_none_or(|fewest| FEW * fewest > by_ours) {
+            let all = starts.par_iter().filter_map(|start| self.posed_so(start, Moved::All));
+            found.extend(all.collect::<Vec<_>>());
+        }
+        let fewest = fewest(&found)?;
+        let good = found.iter().filter(|one| as_good(one.score.differing, fewest, by_ours));
+        let freedom = |one: &&Candidate| match one.convention.pose {
+            Pose::Measured(stance) => stance.moved.freedom(),
+            _ => 0,
+        };
+        good.min_by_key(|one| (freedom(one), one.rank())).copied()
+    }
+
+    /// Our conventions, upright and in the placement that fits best.
+    fn starts_of_pose(&self) -> Vec<Candidate> {
+        let mut placed = self.placed(Convention::default(), self.truth);
+        placed.sort_by_key(|one| (one.convention.placement != Placement::Upright, one.rank()));
+        placed.truncate(MOST_PLACEMENTS);
+        placed
+    }
+
+    fn posed_so(&self, start: &Candidate, moved: Moved) -> Option<Candidate> {
+        let Candidate { convention, encoding, .. } = *start;
+        let placement = convention.placement;
+        // In a picture from elsewhere, numbers say nothing yet about how they count: where 0 is nothing, mostly from 1.
+        let ids = match (encoding.ids, encoding.nothing) {
+            (IdEncoding::CountedFrom(_), _) | (_, NothingEncoding::Number(0.0)) => {
+                IdEncoding::CountedFrom(1)
+            }
+            _ => IdEncoding::FromZero,
+        };
+        let numbering = Encoding { ids, ..encoding };
+        let mut stance = Stance::stated(self.view.camera, moved);
+        let mut best: Option<Candidate> = None;
+        for _ in 0..MOST_STEPS {
+            let next = convention.with(Change::Pose(Pose::Measured(stance)));
+            next.pose.camera(self.view.camera)?;
+            let drawn = self.whole(&next);
+            let expected = Expected::new(self.view, &next, &drawn);
+            let read = self.read(next, &expected, encoding.nothing);
+            if best.is_none_or(|best| read.score.differing < best.score.differing) {
+                best = Some(read);
+            }
+            if read.score.differing == 0 {
+                break;
+            }
+            let seen = seen_in_both(&expected, self.observed, placement, &numbering)?;
+            let Some(step) = self.step(&stance, &seen) else { break };
+            let Some(after) = stance.after(&step.by, step.length, self.view.camera) else { break };
+            stance = after;
+            if step.by.iter().all(|by| by.abs() < 1e-7) {
+                break;
+            }
+        }
+        best.filter(|best| best.score.differing < start.score.differing)
+    }
+
+    /// The step that brings the middles of what is seen to where the file has them.
+    fn step(&self, stance: &Stance, seen: &[Seen]) -> Option<Step> {
+        let camera = self.view.camera;
+        let freedom = stance.moved.freedom();
+        if seen.len() < PRIMITIVES_EACH * freedom {
+            return None;
+        }
+        let placed = seen.iter().filter_map(|one| {
+            let center = self.center(one.id)?;
+            let [x, y, depth] = stance.place(center, camera)?;
+            Some((one, center, [x, y], depth))
+        });
+        let placed: Vec<_> = placed.collect();
+        let weight: f64 = placed.iter().map(|(one, ..)| one.weight()).sum();
+        let length =
+            placed.iter().map(|(one, .., depth)| one.weight() * depth.abs()).sum::<f64>() / weight;
+        // By how far each place moves in each way.
+        const SMALL: f64 = 1e-5;
+        let moved: Vec<Stance> = (0..freedom)
+            .map(|way| {
+                let mut step = vec![0.0; freedom];
+                step[way] = SMALL;
+                stance.after(&step, length, camera)
+            })
+            .collect::<Option<_>>()?;
+        let rows = placed.iter().filter_map(|(one, center, from, _)| {
+            let slopes = moved.iter().map(|moved| {
+                let [x, y, _] = moved.place(*center, camera)?;
+                Some([(x - from[0]) / SMALL, (y - from[1]) / SMALL])
+            });
+            let slopes: Vec<[f64; 2]> = slopes.collect::<Option<_>>()?;
+            Some(Row { slopes, offset: one.offset(), weight: one.weight() })
+        });
+        let mut rows: Vec<Row> = rows.collect();
+        let by = solved(&rows, freedom)?;
+        // What lies far off is hidden otherwise in one of both, and its middle is that of another part.
+        let mut left: Vec<f64> = rows.iter().map(|row| row.left(&by)).collect();
+        left.sort_by(f64::total_cmp);
+        let most = 3.0 * left.get(left.len() / 2)? + 0.5;
+        rows.retain(|row| row.left(&by) <= most);
+        let mut by = solved(&rows, freedom)?;
+        let longest = by.iter().fold(0.0, |longest: f64, by| longest.max(by.abs()));
+        /// A step is at most so long: a part of the depth, or an angle.
+        const LONGEST: f64 = 0.5;
+        if longest > LONGEST {
+            by.iter_mut().for_each(|by| *by *= LONGEST / longest);
+        }
+        Some(Step { by, length })
+    }
+
+    /// The middle of a primitive in the world, if it has one.
+    fn center(&self, id: u32) -> Option<DVec3> {
+        let from_eye = match self.view.primitive(id.into()) {
+            Primitive::Triangle([a, b, c]) => (a + b + c) / 3.0,
+            Primitive::Sphere { center, .. } => center,
+            Primitive::Plane { .. } => return None,
+        };
+        Some(self.view.camera.eye().as_dvec3() + from_eye)
+    }
+}
+
+/// A step, as [`Stance::after`] takes it.
+struct Step {
+    by: Vec<f64>,
+    length: f64,
+}
+
+/// How the place of one primitive moves.
+struct Row {
+    /// For each way, the columns and rows by which it moves.
+    slopes: Vec<[f64; 2]>,
+    /// The columns and rows by which it should.
+    offset: [f64; 2],
+    weight: f64,
+}
+
+impl Row {
+    /// How many pixels are left of the offset.
+    fn left(&self, by: &[f64]) -> f64 {
+        let left = [0, 1].map(|axis| {
+            let moved: f64 = self.slopes.iter().zip(by).map(|(slope, by)| slope[axis] * by).sum();
+            self.offset[axis] - moved
+        });
+        left[0].hypot(left[1])
+    }
+}
+
+/// The least squares: the normal equations, by Gaussian elimination. A way that no place depends on stays as it is.
+fn solved(rows: &[Row], freedom: usize) -> Option<Vec<f64>> {
+    let mut matrix = vec![vec![0.0; freedom + 1]; freedom];
+    for row in rows {
+        for axis in 0..2 {
+            let slopes = row.slopes.iter().map(|slope| slope[axis]);
+            for (line, own) in matrix.iter_mut().zip(slopes.clone()) {
+                let values = slopes.clone().chain([row.offset[axis]]);
+                let weighted = row.weight * own;
+                line.iter_mut().zip(values).for_each(|(sum, value)| *sum += weighted * value);
+            }
+        }
+    }
+    let largest = (0..freedom).map(|way| matrix[way][way]).fold(0.0, f64::max);
+    for (way, row) in matrix.iter_mut().enumerate() {
+        row[way] += 1e-9 * largest;
+    }
+    for way in 0..freedom {
+        let pivot = (way..freedom)
+            .max_by(|&one, &other| matrix[one][way].abs().total_cmp(&matrix[other][way].abs()))?;
+        matrix.swap(way, pivot);
+        let (head, rest) = matrix.split_at_mut(way + 1);
+        let pivot = &head[way];
+        for row in rest {
+            let factor = row[way] / pivot[way];
+            row.iter_mut().zip(pivot).for_each(|(value, of_pivot)| *value -= factor * of_pivot);
+        }
+    }
+    let mut by = vec![0.0; freedom];
+    for way in (0..freedom).rev() {
+        let known: f64 = (way + 1..freedom).map(|other| matrix[way][other] * by[other]).sum();
+        by[way] = (matrix[way][freedom] - known) / matrix[way][way];
+    }
+    by.iter().all(|by| by.is_finite()).then_some(by)
+}

@@ -1,0 +1,117 @@
+//! An eye and axes that were measured, in sentences.
+
+use super::camera::of_pose;
+use crate::common::glam::DVec3;
+use crate::common::{Camera, Orientation};
+use crate::diff::why::convention::{Moved, Placement, Pose, Stance};
+use crate::wording::three_digits;
+
+/// What of the eye and the axes is another; the camera tells what it is not.
+pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&Camera>) -> String {
+    let Some(camera) = camera else { return of_pose(Pose::Measured(*stance)).into() };
+    let [eye, stated_eye] = coordinates(stance.eye, camera.eye().as_dvec3());
+    let [along, stated_along] = coordinates(-stance.axes[2], -camera.w());
+    let orientation = camera.description().orientation;
+    let has_words = !matches!(orientation, Orientation::Frame { .. });
+    let has_target = matches!(orientation, Orientation::LookAt { .. });
+    let what = match stance.moved {
+        Moved::Up => {
+            let roll = stance.roll(camera);
+            let way = if roll > 0.0 { "clockwise" } else { "counter-clockwise" };
+            let cause = if has_words { "is its up another" } else { "are its u and v others" };
+            let degrees = three_digits(roll.abs());
+            format!("shows everything turned {way} by {degrees} degrees: {cause}?")
+        }
+        Moved::Direction => {
+            let cause = if has_target { ": is its look_at another?" } else { "" };
+            format!("looks along about {along}, not {stated_along}{cause}")
+        }
+        Moved::Eye => {
+            format!(
+                "has its eye at about {eye}, not {stated_eye}, and looks in the right direction"
+            )
+        }
+        Moved::EyeAroundTarget => {
+            format!("has its eye at about {eye}, not {stated_eye}, and looks at the right point")
+        }
+        Moved::All => format!(
+            "has its eye at about {eye}, not {stated_eye}, and looks along about {along}, not {stated_along}"
+        ),
+    };
+    let turned =
+        if placement == Placement::Upright { "" } else { " (once the picture is upright)" };
+    format!("{what}{turned}")
+}
+
+/// Two points or directions, with as many digits as tell them apart, and at least three of the larger coordinates.
+fn coordinates(one: DVec3, other: DVec3) -> [String; 2] {
+    // Of the largest three digits, of the difference two.
+    let place = |value: f64, digits: i32| {
+        if value > 0.0 { digits - 1 - digits_before(value) } else { 0 }
+    };
+    let largest = one.abs().max(other.abs()).max_element();
+    let difference = (one - other).abs().max_element();
+    let decimals = place(largest, 3).max(place(difference, 2)).clamp(0, 9);
+    let decimals = usize::try_from(decimals).expect("it is not negative");
+    [one, other].map(|point| {
+        let [x, y, z] = point.to_array().map(|value| {
+            let written = format!("{value:.decimals$}");
+            let written = match written.contains('.') {
+                true => written.trim_end_matches('0').trim_end_matches('.'),
+                false => &written,
+            };
+            if written == "-0" { "0".to_owned() } else { written.to_owned() }
+        });
+        format!("({x}, {y}, {z})")
+    })
+}
+
+/// The power of ten of the first digit.
+#[expect(clippy::cast_possible_truncation, reason = "at most 308")]
+fn digits_before(value: f64) -> i32 {
+    value.log10().floor() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::CameraDescription;
+    use crate::common::glam::Vec3;
+
+    #[test]
+    fn a_stance_is_told_beside_what_is_stated() {
+        let looking = CameraDescription {
+            eye: Vec3::new(0.0, 0.5, 3.0),
+            orientation: Orientation::LookAt { target: Vec3::new(0.0, 0.5, 0.0), up: Vec3::Y },
+            ..CameraDescription::default()
+        };
+        let camera = Camera::new(looking).unwrap();
+        let said = |moved: Moved, step: &[f64], placement: Placement| {
+            let stance = Stance::stated(&camera, moved).after(step, 1.0, &camera).unwrap();
+            of_stance(&stance, placement, Some(&camera))
+        };
+        use Placement::{Upright, UpsideDown};
+        assert_eq!(
+            said(Moved::Up, &[0.1], Upright),
+            "shows everything turned clockwise by 5.73 degrees: is its up another?"
+        );
+        assert_eq!(
+            said(Moved::Direction, &[0.0, -0.1], Upright),
+            "looks along about (0.1, 0, -0.995), not (0, 0, -1): is its look_at another?"
+        );
+        assert_eq!(
+            said(Moved::Eye, &[0.25, 0.0, -0.5], UpsideDown),
+            "has its eye at about (0.25, 0.5, 2.5), not (0, 0.5, 3), and looks in the right direction (once the picture \
+             is upright)"
+        );
+        assert_eq!(
+            said(Moved::EyeAroundTarget, &[0.0, 0.0012, 0.0], Upright),
+            "has its eye at about (0, 0.5012, 3), not (0, 0.5, 3), and looks at the right point"
+        );
+        assert_eq!(
+            said(Moved::All, &[1.0, 0.0, 0.0, 0.0, 0.1, 0.0], Upright),
+            "has its eye at about (1, 0.5, 3), not (0, 0.5, 3), and looks along about (-0.1, 0, -0.995), not (0, 0, -1)"
+        );
+        assert_eq!(coordinates(DVec3::splat(1234.0), DVec3::ZERO)[0], "(1234, 1234, 1234)");
+    }
+}

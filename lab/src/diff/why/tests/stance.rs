@@ -1,0 +1,109 @@
+//! Pictures from another eye, or in another direction, that no mistake of the list gives.
+
+use super::framing::{finding, finding_of_camera, only, true_ids};
+use super::*;
+use crate::common::Orientation;
+use crate::common::glam::{DVec3, Vec3};
+
+/// The stance that is named, how many pixels it leaves, and the sentence.
+fn stance(view: &View, finding: &Finding) -> (Stance, u64, String) {
+    let one = only(finding);
+    let Pose::Measured(stance) = one.convention.pose else { panic!("{one:?}") };
+    (stance, one.remaining, one.sentences("A", view.camera).join(" / "))
+}
+
+fn is_near(one: DVec3, other: DVec3, by: f64) -> bool {
+    (one - other).length() <= by
+}
+
+#[test]
+fn another_eye_is_named_with_its_place() {
+    with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
+        let description = *view.camera.description();
+        for by in [[0.3, 0.0, 0.0], [0.0, 0.4, 0.0], [0.5, -0.2, -1.0], [0.0, 0.0, 0.7]] {
+            let eye = description.eye + Vec3::from_array(by);
+            // It looks at the same point, as the words of the scene file say.
+            let around = finding_of_camera(view, CameraDescription { eye, ..description });
+            let (found, left, said) = stance(view, &around);
+            assert!(is_near(found.eye, eye.as_dvec3(), 0.01), "{by:?} {found:?} {left}");
+            assert_eq!(found.moved, Moved::EyeAroundTarget, "{by:?}");
+            assert!(said.contains("looks at the right point"), "{said}");
+            // And with the axes as they were.
+            let [u, v, w] = [view.camera.u(), view.camera.v(), view.camera.w()].map(DVec3::as_vec3);
+            let orientation = Orientation::Frame { u, v, w };
+            let beside = CameraDescription { eye, orientation, ..description };
+            let (found, left, said) = stance(view, &finding_of_camera(view, beside));
+            assert!(is_near(found.eye, eye.as_dvec3(), 0.01), "{by:?} {found:?} {left}");
+            assert_eq!(found.moved, Moved::Eye, "{by:?}");
+            assert!(said.contains("looks in the right direction"), "{said}");
+        }
+    });
+}
+
+#[test]
+fn another_direction_and_another_up_are_named() {
+    for projection in [Projection::Perspective, Projection::Parallel] {
+        with_scene(&coarse_lecture(), [132, 88], projection, |view| {
+            let description = *view.camera.description();
+            let Orientation::LookAt { target, up } = description.orientation else { panic!() };
+            let with = |target, up| {
+                let orientation = Orientation::LookAt { target, up };
+                finding_of_camera(view, CameraDescription { orientation, ..description })
+            };
+            let elsewhere = target + Vec3::new(0.4, 0.2, 0.1);
+            let (found, _, said) = stance(view, &with(elsewhere, up));
+            let back = (description.eye - elsewhere).as_dvec3().normalize();
+            assert!(is_near(found.axes[2], back, 1e-3), "{projection:?} {found:?} {back}");
+            assert_eq!(found.moved, Moved::Direction);
+            assert!(said.ends_with("is its look_at another?"), "{said}");
+            let (found, _, said) = stance(view, &with(target, up + Vec3::new(0.2, 0.0, 0.0)));
+            assert_eq!(found.moved, Moved::Up, "{projection:?}");
+            assert!(said.contains(" clockwise by ") == (found.roll(view.camera) > 0.0), "{said}");
+        });
+    }
+}
+
+#[test]
+fn another_eye_that_looks_elsewhere_is_named() {
+    with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
+        let description = *view.camera.description();
+        let Orientation::LookAt { target, .. } = description.orientation else { panic!() };
+        let eye = description.eye + Vec3::new(0.15, 0.1, 0.3);
+        let target = target + Vec3::new(0.1, -0.2, 0.0);
+        let orientation = Orientation::LookAt { target, up: Vec3::new(0.1, 1.0, 0.0) };
+        let other = CameraDescription { eye, orientation, ..description };
+        let (found, left, said) = stance(view, &finding_of_camera(view, other));
+        let camera = Camera::new(other).unwrap();
+        assert!(is_near(found.eye, eye.as_dvec3(), 0.01), "{found:?} {left}");
+        assert!(is_near(found.axes[0], camera.u(), 0.01), "{found:?} {}", camera.u());
+        assert!(said.contains("looks along about"), "{said}");
+    });
+}
+
+#[test]
+fn another_eye_is_named_from_ids_that_count_from_1_and_upside_down() {
+    with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
+        let description = *view.camera.description();
+        let eye = description.eye + Vec3::new(0.2, 0.1, 0.1);
+        let camera = Camera::new(CameraDescription { eye, ..description }).unwrap();
+        let truth = true_ids(&View::new(view.scene, &camera));
+        // 0 is nothing, as where a picture is cleared to 0.
+        let found = finding(view, |[i, j]| Some(truth([87 - i, j]).map_or(0, |id| id + 1)));
+        let (found, _, said) = stance(view, &found);
+        assert!(is_near(found.eye, eye.as_dvec3(), 0.01), "{found:?}");
+        assert!(said.contains("upside down") && said.contains("counts ids from 1"), "{said}");
+    });
+}
+
+#[test]
+fn a_picture_of_another_scene_has_no_stance() {
+    with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
+        let truth = true_ids(view);
+        // The ids are exchanged by halves: what is seen lies in places that no eye sees.
+        let count = view.scene.primitive_count();
+        let found = finding(view, |pixel| truth(pixel).map(|id| (id * 7 + 3) % count));
+        if let Finding::Explained(found) = &found {
+            assert!(found.iter().all(|one| !one.convention.is_posed()), "{found:?}");
+        }
+    });
+}
