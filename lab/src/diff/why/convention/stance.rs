@@ -121,6 +121,12 @@ impl Stance {
         let v = self.axes[1];
         f64::atan2(-v.dot(stated.u()), v.dot(stated.v())).to_degrees()
     }
+
+    /// Whether it is held otherwise than the camera's `up` would hold it in its direction of view, by a degree or more.
+    pub(in crate::diff::why) fn has_another_up(&self, stated: &Camera) -> bool {
+        let upright = upright(self.axes[2], stated);
+        upright.is_some_and(|[u, ..]| u.dot(self.axes[0]) < f64::to_radians(1.0).cos())
+    }
 }
 
 fn target(stated: &Camera) -> Option<DVec3> {

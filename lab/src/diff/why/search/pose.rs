@@ -9,13 +9,17 @@ use super::super::convention::{Change, Convention, Moved, Placement, Pose, Stanc
 use super::super::encoding::{Encoding, IdEncoding, NothingEncoding};
 use super::super::expected::Expected;
 use super::super::fit::{Seen, seen_in_both};
+use super::super::observed::Values;
 use super::{FEW, Search};
 use crate::common::Primitive;
 use crate::common::glam::DVec3;
 use rayon::prelude::*;
 
 /// So often the eye and the axes are moved.
-const MOST_STEPS: usize = 12;
+const MOST_STEPS: usize = 20;
+
+/// So often in a row they may be moved for nothing.
+const MOST_WORSE: usize = 6;
 
 /// In so many placements they are sought.
 const MOST_PLACEMENTS: usize = 2;
@@ -27,18 +31,23 @@ impl Search<'_> {
     /// Our conventions with the eye and the axes that the file shows: of those that explain it, one with little that is moved.
     pub(super) fn posed(&self) -> Option<Candidate> {
         let by_ours = self.ours.differing;
-        let simple = Moved::simple(self.view.camera);
         let starts = self.starts_of_pose();
-        let tries: Vec<(&Candidate, Moved)> = starts
-            .iter()
-            .flat_map(|start| simple.iter().map(move |&moved| (start, moved)))
-            .collect();
-        let mut found: Vec<Candidate> =
-            tries.par_iter().filter_map(|(start, moved)| self.posed_so(start, *moved)).collect();
+        let sought = |moved: &[Moved]| -> Vec<Candidate> {
+            let each = starts.iter().flat_map(|start| {
+                let numberings = self.numberings(start.encoding.nothing);
+                numberings.into_iter().flat_map(move |ids| {
+                    let start =
+                        Candidate { encoding: Encoding { ids, ..start.encoding }, ..*start };
+                    moved.iter().map(move |&moved| (start, moved))
+                })
+            });
+            let each: Vec<(Candidate, Moved)> = each.collect();
+            each.par_iter().filter_map(|(start, moved)| self.posed_so(start, *moved)).collect()
+        };
+        let mut found = sought(&Moved::simple(self.view.camera));
         let fewest = |found: &[Candidate]| found.iter().map(|one| one.score.differing).min();
         if fewest(&found).is_none_or(|fewest| FEW * fewest > by_ours) {
-            let all = starts.par_iter().filter_map(|start| self.posed_so(start, Moved::All));
-            found.extend(all.collect::<Vec<_>>());
+            found.extend(sought(&[Moved::All]));
         }
         let fewest = fewest(&found)?;
         let good = found.iter().filter(|one| as_good(one.score.differing, fewest, by_ours));
@@ -57,19 +66,26 @@ impl Search<'_> {
         placed
     }
 
+    /// How ids may count: in a picture from elsewhere, numbers at places say nothing yet.
+    fn numberings(&self, nothing: NothingEncoding) -> Vec<IdEncoding> {
+        let Values::Ids(numbers) = &self.observed.values else { return Vec::new() };
+        let from_one = IdEncoding::CountedFrom(1);
+        if numbers.contains(&Some(self.view.scene.primitive_count())) {
+            vec![from_one]
+        } else if nothing != NothingEncoding::Number(0.0) && numbers.contains(&Some(0)) {
+            vec![IdEncoding::FromZero]
+        } else {
+            vec![IdEncoding::FromZero, from_one]
+        }
+    }
+
+    /// The start with the eye and the axes that the file shows, if its ids count as in the start.
     fn posed_so(&self, start: &Candidate, moved: Moved) -> Option<Candidate> {
         let Candidate { convention, encoding, .. } = *start;
         let placement = convention.placement;
-        // In a picture from elsewhere, numbers say nothing yet about how they count: where 0 is nothing, mostly from 1.
-        let ids = match (encoding.ids, encoding.nothing) {
-            (IdEncoding::CountedFrom(_), _) | (_, NothingEncoding::Number(0.0)) => {
-                IdEncoding::CountedFrom(1)
-            }
-            _ => IdEncoding::FromZero,
-        };
-        let numbering = Encoding { ids, ..encoding };
         let mut stance = Stance::stated(self.view.camera, moved);
         let mut best: Option<Candidate> = None;
+        let (mut last, mut worse): (Option<Vec<f64>>, usize) = (None, 0);
         for _ in 0..MOST_STEPS {
             let next = convention.with(Change::Pose(Pose::Measured(stance)));
             next.pose.camera(self.view.camera)?;
@@ -77,18 +93,24 @@ impl Search<'_> {
             let expected = Expected::new(self.view, &next, &drawn);
             let read = self.read(next, &expected, encoding.nothing);
             if best.is_none_or(|best| read.score.differing < best.score.differing) {
-                best = Some(read);
+                (best, worse) = (Some(read), 0);
+            } else {
+                worse += 1;
             }
-            if read.score.differing == 0 {
+            if read.score.differing == 0 || worse == MOST_WORSE {
                 break;
             }
-            let seen = seen_in_both(&expected, self.observed, placement, &numbering)?;
-            let Some(step) = self.step(&stance, &seen) else { break };
+            let seen = seen_in_both(&expected, self.observed, placement, &encoding)?;
+            let Some(mut step) = self.step(&stance, &seen) else { break };
+            last = match last {
+                Some(last) => {
+                    step.extrapolate(&last);
+                    None
+                }
+                None => Some(step.by.clone()),
+            };
             let Some(after) = stance.after(&step.by, step.length, self.view.camera) else { break };
             stance = after;
-            if step.by.iter().all(|by| by.abs() < 1e-7) {
-                break;
-            }
         }
         best.filter(|best| best.score.differing < start.score.differing)
     }
@@ -158,6 +180,21 @@ impl Search<'_> {
 struct Step {
     by: Vec<f64>,
     length: f64,
+}
+
+impl Step {
+    /// Makes the step as long as this one and all that would follow it, if each were as much shorter than the one before as this
+    /// one is: pixels of tiny primitives move by whole steps or not at all, and tell less of a way than it has.
+    fn extrapolate(&mut self, last: &[f64]) {
+        let dot = |one: &[f64]| one.iter().zip(last).map(|(one, last)| one * last).sum::<f64>();
+        let ratio = dot(&self.by) / dot(last);
+        // Far off, a step tells nothing of the next one.
+        const NEAR: f64 = 0.05;
+        let is_near = last.iter().all(|by| by.abs() < NEAR);
+        if is_near && (0.0..0.95).contains(&ratio) {
+            self.by.iter_mut().for_each(|by| *by /= 1.0 - ratio);
+        }
+    }
 }
 
 /// How the place of one primitive moves.

@@ -14,33 +14,36 @@ pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&C
     let orientation = camera.description().orientation;
     let has_words = !matches!(orientation, Orientation::Frame { .. });
     let has_target = matches!(orientation, Orientation::LookAt { .. });
-    let what = match stance.moved {
+    let shows =
+        if placement == Placement::Upright { "shows" } else { "shows, once it is upright," };
+    match stance.moved {
         Moved::Up => {
             let roll = stance.roll(camera);
             let way = if roll > 0.0 { "clockwise" } else { "counter-clockwise" };
             let cause = if has_words { "is its up another" } else { "are its u and v others" };
             let degrees = three_digits(roll.abs());
-            format!("shows everything turned {way} by {degrees} degrees: {cause}?")
+            format!("{shows} everything turned {way} by {degrees} degrees: {cause}?")
         }
         Moved::Direction => {
             let cause = if has_target { ": is its look_at another?" } else { "" };
-            format!("looks along about {along}, not {stated_along}{cause}")
+            format!("{shows} what is seen along about {along}, not along {stated_along}{cause}")
         }
-        Moved::Eye => {
+        Moved::Eye => format!(
+            "{shows} what an eye at about {eye} sees in the same direction, not one at {stated_eye}: is its eye another, or \
+             all of the scene moved?"
+        ),
+        Moved::EyeAroundTarget => format!(
+            "{shows} what an eye at about {eye} sees that looks at the same point, not one at {stated_eye}: is its eye \
+             another, or all of the scene turned?"
+        ),
+        Moved::All => {
+            let up = if stance.has_another_up(camera) { " (with another up)" } else { "" };
             format!(
-                "has its eye at about {eye}, not {stated_eye}, and looks in the right direction"
+                "{shows} what an eye at about {eye} sees along about {along}{up}, not one at {stated_eye} along \
+                 {stated_along}: are its eye and its direction of view others, or is all of the scene moved?"
             )
         }
-        Moved::EyeAroundTarget => {
-            format!("has its eye at about {eye}, not {stated_eye}, and looks at the right point")
-        }
-        Moved::All => format!(
-            "has its eye at about {eye}, not {stated_eye}, and looks along about {along}, not {stated_along}"
-        ),
-    };
-    let turned =
-        if placement == Placement::Upright { "" } else { " (once the picture is upright)" };
-    format!("{what}{turned}")
+    }
 }
 
 /// Two points or directions, with as many digits as tell them apart, and at least three of the larger coordinates.
@@ -97,21 +100,23 @@ mod tests {
         );
         assert_eq!(
             said(Moved::Direction, &[0.0, -0.1], Upright),
-            "looks along about (0.1, 0, -0.995), not (0, 0, -1): is its look_at another?"
+            "shows what is seen along about (0.1, 0, -0.995), not along (0, 0, -1): is its look_at another?"
         );
         assert_eq!(
             said(Moved::Eye, &[0.25, 0.0, -0.5], UpsideDown),
-            "has its eye at about (0.25, 0.5, 2.5), not (0, 0.5, 3), and looks in the right direction (once the picture \
-             is upright)"
+            "shows, once it is upright, what an eye at about (0.25, 0.5, 2.5) sees in the same direction, not one at \
+             (0, 0.5, 3): is its eye another, or all of the scene moved?"
         );
         assert_eq!(
             said(Moved::EyeAroundTarget, &[0.0, 0.0012, 0.0], Upright),
-            "has its eye at about (0, 0.5012, 3), not (0, 0.5, 3), and looks at the right point"
+            "shows what an eye at about (0, 0.5012, 3) sees that looks at the same point, not one at (0, 0.5, 3): is its \
+             eye another, or all of the scene turned?"
         );
-        assert_eq!(
-            said(Moved::All, &[1.0, 0.0, 0.0, 0.0, 0.1, 0.0], Upright),
-            "has its eye at about (1, 0.5, 3), not (0, 0.5, 3), and looks along about (-0.1, 0, -0.995), not (0, 0, -1)"
-        );
+        let all = "shows what an eye at about (1, 0.5, 3) sees along about (-0.1, 0, -0.995), not one at (0, 0.5, 3) along \
+             (0, 0, -1): are its eye and its direction of view others, or is all of the scene moved?";
+        assert_eq!(said(Moved::All, &[1.0, 0.0, 0.0, 0.0, 0.1, 0.0], Upright), all);
+        let rolled = said(Moved::All, &[1.0, 0.0, 0.0, 0.0, 0.1, 0.02], Upright);
+        assert!(rolled.contains("-0.995) (with another up), not one at"), "{rolled}");
         assert_eq!(coordinates(DVec3::splat(1234.0), DVec3::ZERO)[0], "(1234, 1234, 1234)");
     }
 }

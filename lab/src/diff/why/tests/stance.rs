@@ -27,7 +27,7 @@ fn another_eye_is_named_with_its_place() {
             let (found, left, said) = stance(view, &around);
             assert!(is_near(found.eye, eye.as_dvec3(), 0.01), "{by:?} {found:?} {left}");
             assert_eq!(found.moved, Moved::EyeAroundTarget, "{by:?}");
-            assert!(said.contains("looks at the right point"), "{said}");
+            assert!(said.contains("that looks at the same point"), "{said}");
             // And with the axes as they were.
             let [u, v, w] = [view.camera.u(), view.camera.v(), view.camera.w()].map(DVec3::as_vec3);
             let orientation = Orientation::Frame { u, v, w };
@@ -35,7 +35,7 @@ fn another_eye_is_named_with_its_place() {
             let (found, left, said) = stance(view, &finding_of_camera(view, beside));
             assert!(is_near(found.eye, eye.as_dvec3(), 0.01), "{by:?} {found:?} {left}");
             assert_eq!(found.moved, Moved::Eye, "{by:?}");
-            assert!(said.contains("looks in the right direction"), "{said}");
+            assert!(said.contains("in the same direction"), "{said}");
         }
     });
 }
@@ -76,7 +76,7 @@ fn another_eye_that_looks_elsewhere_is_named() {
         let camera = Camera::new(other).unwrap();
         assert!(is_near(found.eye, eye.as_dvec3(), 0.01), "{found:?} {left}");
         assert!(is_near(found.axes[0], camera.u(), 0.01), "{found:?} {}", camera.u());
-        assert!(said.contains("looks along about"), "{said}");
+        assert!(said.contains(" along about "), "{said}");
     });
 }
 
