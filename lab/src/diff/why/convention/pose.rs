@@ -1,6 +1,6 @@
 //! Where the eye is, and how the axes of the camera lie.
 
-use super::stance::Stance;
+use super::stance::{Stance, frame};
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::{Camera, CameraDescription, Orientation, Projection};
 
@@ -208,11 +208,6 @@ fn lengths(stated: &Camera) -> Option<[f64; 2]> {
         Orientation::Frame { .. } => return None,
     };
     Some([direction.length(), up.as_dvec3().cross(stated.w()).length()])
-}
-
-pub(super) fn frame(axes: [DVec3; 3]) -> Orientation {
-    let [u, v, w] = axes.map(DVec3::as_vec3);
-    Orientation::Frame { u, v, w }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the camera stores f32, and checks its range")]

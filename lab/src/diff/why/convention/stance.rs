@@ -1,6 +1,5 @@
 //! An eye and axes that no mistake of the list gives: the places of primitives in a file tell them.
 
-use super::pose::frame;
 use crate::common::glam::{DQuat, DVec3};
 use crate::common::{Camera, CameraDescription, Orientation, Projection};
 
@@ -127,6 +126,12 @@ impl Stance {
         let upright = upright(self.axes[2], stated);
         upright.is_some_and(|[u, ..]| u.dot(self.axes[0]) < f64::to_radians(1.0).cos())
     }
+}
+
+/// Axes as a camera takes them.
+pub(super) fn frame(axes: [DVec3; 3]) -> Orientation {
+    let [u, v, w] = axes.map(DVec3::as_vec3);
+    Orientation::Frame { u, v, w }
 }
 
 fn target(stated: &Camera) -> Option<DVec3> {

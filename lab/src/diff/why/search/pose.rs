@@ -27,6 +27,15 @@ const MOST_PLACEMENTS: usize = 2;
 /// For each way in which a stance is free, so many primitives must be seen: each tells two numbers.
 const PRIMITIVES_EACH: usize = 2;
 
+/// A step is at most so long: a part of the depth, or an angle.
+const LONGEST: f64 = 0.5;
+
+/// The step by which slopes are measured.
+const SMALL: f64 = 1e-5;
+
+/// Where the last step was shorter than this, it tells of the next one.
+const NEAR: f64 = 0.05;
+
 impl Search<'_> {
     /// Our conventions with the eye and the axes that the file shows: of those that explain it, one with little that is moved.
     pub(super) fn posed(&self) -> Option<Candidate> {
@@ -117,38 +126,11 @@ impl Search<'_> {
 
     /// The step that brings the middles of what is seen to where the file has them.
     fn step(&self, stance: &Stance, seen: &[Seen]) -> Option<Step> {
-        let camera = self.view.camera;
         let freedom = stance.moved.freedom();
         if seen.len() < PRIMITIVES_EACH * freedom {
             return None;
         }
-        let placed = seen.iter().filter_map(|one| {
-            let center = self.center(one.id)?;
-            let [x, y, depth] = stance.place(center, camera)?;
-            Some((one, center, [x, y], depth))
-        });
-        let placed: Vec<_> = placed.collect();
-        let weight: f64 = placed.iter().map(|(one, ..)| one.weight()).sum();
-        let length =
-            placed.iter().map(|(one, .., depth)| one.weight() * depth.abs()).sum::<f64>() / weight;
-        // By how far each place moves in each way.
-        const SMALL: f64 = 1e-5;
-        let moved: Vec<Stance> = (0..freedom)
-            .map(|way| {
-                let mut step = vec![0.0; freedom];
-                step[way] = SMALL;
-                stance.after(&step, length, camera)
-            })
-            .collect::<Option<_>>()?;
-        let rows = placed.iter().filter_map(|(one, center, from, _)| {
-            let slopes = moved.iter().map(|moved| {
-                let [x, y, _] = moved.place(*center, camera)?;
-                Some([(x - from[0]) / SMALL, (y - from[1]) / SMALL])
-            });
-            let slopes: Vec<[f64; 2]> = slopes.collect::<Option<_>>()?;
-            Some(Row { slopes, offset: one.offset(), weight: one.weight() })
-        });
-        let mut rows: Vec<Row> = rows.collect();
+        let (mut rows, length) = self.rows(stance, seen)?;
         let by = solved(&rows, freedom)?;
         // What lies far off is hidden otherwise in one of both, and its middle is that of another part.
         let mut left: Vec<f64> = rows.iter().map(|row| row.left(&by)).collect();
@@ -157,12 +139,39 @@ impl Search<'_> {
         rows.retain(|row| row.left(&by) <= most);
         let mut by = solved(&rows, freedom)?;
         let longest = by.iter().fold(0.0, |longest: f64, by| longest.max(by.abs()));
-        /// A step is at most so long: a part of the depth, or an angle.
-        const LONGEST: f64 = 0.5;
         if longest > LONGEST {
             by.iter_mut().for_each(|by| *by *= LONGEST / longest);
         }
         Some(Step { by, length })
+    }
+
+    /// How the place of each primitive moves with the stance, and the depth at which they lie, in the middle.
+    fn rows(&self, stance: &Stance, seen: &[Seen]) -> Option<(Vec<Row>, f64)> {
+        let camera = self.view.camera;
+        let placed = seen.iter().filter_map(|one| {
+            let center = self.center(one.id)?;
+            Some((one, center, stance.place(center, camera)?))
+        });
+        let placed: Vec<(&Seen, DVec3, [f64; 3])> = placed.collect();
+        let weight: f64 = placed.iter().map(|(one, ..)| one.weight()).sum();
+        let depths = placed.iter().map(|(one, _, [.., depth])| one.weight() * depth.abs());
+        let length = depths.sum::<f64>() / weight;
+        let freedom = stance.moved.freedom();
+        let moved = (0..freedom).map(|way| {
+            let mut step = vec![0.0; freedom];
+            step[way] = SMALL;
+            stance.after(&step, length, camera)
+        });
+        let moved: Vec<Stance> = moved.collect::<Option<_>>()?;
+        let rows = placed.iter().filter_map(|(one, center, [x, y, _])| {
+            let slopes = moved.iter().map(|moved| {
+                let [right, down, _] = moved.place(*center, camera)?;
+                Some([(right - x) / SMALL, (down - y) / SMALL])
+            });
+            let slopes: Vec<[f64; 2]> = slopes.collect::<Option<_>>()?;
+            Some(Row { slopes, offset: one.offset(), weight: one.weight() })
+        });
+        Some((rows.collect(), length))
     }
 
     /// The middle of a primitive in the world, if it has one.
@@ -188,8 +197,6 @@ impl Step {
     fn extrapolate(&mut self, last: &[f64]) {
         let dot = |one: &[f64]| one.iter().zip(last).map(|(one, last)| one * last).sum::<f64>();
         let ratio = dot(&self.by) / dot(last);
-        // Far off, a step tells nothing of the next one.
-        const NEAR: f64 = 0.05;
         let is_near = last.iter().all(|by| by.abs() < NEAR);
         if is_near && (0.0..0.95).contains(&ratio) {
             self.by.iter_mut().for_each(|by| *by /= 1.0 - ratio);
