@@ -41,7 +41,8 @@ impl Candidate {
         let is_close =
             self.convention.pose != Pose::AsStated || self.convention.field.is_of_angle();
         let close_left = if is_measured || is_close { 50 } else { 1 };
-        let least = parts_left.max(omission_left).max(close_left);
+        let free_left = if self.convention.is_freely_posed() { 200 } else { 1 };
+        let least = parts_left.max(omission_left).max(close_left).max(free_left);
         let most_mistakes = if is_mask { 2 } else { 3 };
         mistakes <= most_mistakes
             && least * self.score.differing <= ours.differing

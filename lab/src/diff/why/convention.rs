@@ -311,6 +311,11 @@ impl Convention {
         matches!(self.pose, Pose::Measured(_))
     }
 
+    /// Whether its eye and all of its axes are known from the file alone.
+    pub(super) fn is_freely_posed(&self) -> bool {
+        matches!(self.pose, Pose::Measured(Stance { moved: Moved::All, .. }))
+    }
+
     /// Whether something is not drawn: a primitive, an object, or what lies beyond a plane.
     pub fn leaves_out(&self) -> bool {
         self.each_change().any(Change::has_own_number)

@@ -10,9 +10,12 @@ pub enum Moved {
     Up,
     /// The direction of view is another one.
     Direction,
+    /// All axes are others.
+    Axes,
     /// The eye stands elsewhere, and looks in the same direction.
     Eye,
-    /// The eye stands elsewhere, and looks at the same point.
+    /// The eye stands elsewhere, and looks at the same point. How far from it the eye of a parallel camera stands, no picture tells:
+    /// as far as stated.
     EyeAroundTarget,
     /// The eye and all axes are others.
     All,
@@ -27,13 +30,15 @@ pub struct Stance {
     pub axes: [DVec3; 3],
     /// What of them is not as stated.
     pub moved: Moved,
+    /// The number of the only object whose places tell it, of several in the scene: it alone may be moved.
+    pub told_by: Option<usize>,
 }
 
 impl Moved {
     /// What can be another with this camera, and shows as something else than a picture that is moved as a whole; but for
     /// [`Moved::All`].
     pub(in crate::diff::why) fn simple(stated: &Camera) -> Vec<Moved> {
-        let mut all = vec![Moved::Up, Moved::Direction];
+        let mut all = vec![Moved::Up, Moved::Direction, Moved::Axes];
         if stated.projection() == Projection::Perspective {
             all.push(Moved::Eye);
         }
@@ -44,11 +49,12 @@ impl Moved {
     }
 
     /// In how many ways the stance can be another.
-    pub(in crate::diff::why) fn freedom(self) -> usize {
+    pub(in crate::diff::why) fn freedom(self, projection: Projection) -> usize {
         match self {
             Moved::Up => 1,
+            Moved::EyeAroundTarget if projection == Projection::Parallel => 2,
             Moved::Direction => 2,
-            Moved::Eye | Moved::EyeAroundTarget => 3,
+            Moved::Axes | Moved::Eye | Moved::EyeAroundTarget => 3,
             Moved::All => 6,
         }
     }
@@ -58,7 +64,7 @@ impl Stance {
     /// The stance of a camera, from which something of it will be moved.
     pub(in crate::diff::why) fn stated(camera: &Camera, moved: Moved) -> Stance {
         let axes = [camera.u(), camera.v(), camera.w()];
-        Stance { eye: camera.eye().as_dvec3(), axes, moved }
+        Stance { eye: camera.eye().as_dvec3(), axes, moved, told_by: None }
     }
 
     /// The stance a step farther in each of its ways: along `u`, `v` and `w` in units of a length of the scene, and turned
@@ -74,23 +80,31 @@ impl Stance {
             let turn = DQuat::from_scaled_axis(by);
             axes.map(|axis| (turn * axis).normalize())
         };
-        let along = |by: &[f64]| length * (by[0] * u + by[1] * v + by[2] * w);
+        let along =
+            |by: &[f64]| length * (by.iter().zip(axes).map(|(by, axis)| *by * axis).sum::<DVec3>());
         Some(match self.moved {
             Moved::Up => Stance { axes: turned(step[0] * w), ..self },
             Moved::Direction => {
                 let axes = turned(step[0] * u + step[1] * v);
                 Stance { axes: upright(axes[2], stated).unwrap_or(axes), ..self }
             }
+            Moved::Axes => Stance { axes: turned(step[0] * u + step[1] * v + step[2] * w), ..self },
             Moved::Eye => Stance { eye: self.eye + along(step), ..self },
             Moved::EyeAroundTarget => {
-                let eye = self.eye + along(step);
-                let back = eye - target(stated)?;
-                let back = back.try_normalize()?;
+                let target = target(stated)?;
+                let from_target = self.eye + along(step) - target;
+                let back = from_target.try_normalize()?;
+                let eye = match stated.projection() {
+                    Projection::Perspective => target + from_target,
+                    Projection::Parallel => {
+                        target + back * (stated.eye().as_dvec3() - target).length()
+                    }
+                };
                 Stance { eye, axes: upright(back, stated)?, ..self }
             }
             Moved::All => {
                 let about = step[3] * u + step[4] * v + step[5] * w;
-                Stance { eye: self.eye + along(step), axes: turned(about), ..self }
+                Stance { eye: self.eye + along(&step[..3]), axes: turned(about), ..self }
             }
         })
     }

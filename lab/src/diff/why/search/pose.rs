@@ -40,39 +40,44 @@ impl Search<'_> {
     /// Our conventions with the eye and the axes that the file shows: of those that explain it, one with little that is moved.
     pub(super) fn posed(&self) -> Option<Candidate> {
         let by_ours = self.ours.differing;
-        let starts = self.starts_of_pose();
-        let sought = |moved: &[Moved]| -> Vec<Candidate> {
-            let each = starts.iter().flat_map(|start| {
-                let numberings = self.numberings(start.encoding.nothing);
-                numberings.into_iter().flat_map(move |ids| {
-                    let start =
-                        Candidate { encoding: Encoding { ids, ..start.encoding }, ..*start };
-                    moved.iter().map(move |&moved| (start, moved))
-                })
-            });
-            let each: Vec<(Candidate, Moved)> = each.collect();
-            each.par_iter().filter_map(|(start, moved)| self.posed_so(start, *moved)).collect()
-        };
-        let mut found = sought(&Moved::simple(self.view.camera));
-        let fewest = |found: &[Candidate]| found.iter().map(|one| one.score.differing).min();
-        if fewest(&found).is_none_or(|fewest| FEW * fewest > by_ours) {
-            found.extend(sought(&[Moved::All]));
+        let few =
+            |found: &[Candidate]| found.iter().any(|one| FEW * one.score.differing <= by_ours);
+        let mut found = Vec::new();
+        for start in self.starts_of_pose() {
+            let sought = |moved: &[Moved]| -> Vec<Candidate> {
+                moved.par_iter().filter_map(|&moved| self.posed_so(&start, moved)).collect()
+            };
+            found.extend(sought(&Moved::simple(self.view.camera)));
+            if !few(&found) {
+                found.extend(sought(&[Moved::All]));
+            }
+            if few(&found) {
+                break;
+            }
         }
-        let fewest = fewest(&found)?;
+        let fewest = found.iter().map(|one| one.score.differing).min()?;
         let good = found.iter().filter(|one| as_good(one.score.differing, fewest, by_ours));
+        let projection = self.view.camera.projection();
         let freedom = |one: &&Candidate| match one.convention.pose {
-            Pose::Measured(stance) => stance.moved.freedom(),
+            Pose::Measured(stance) => stance.moved.freedom(projection),
             _ => 0,
         };
         good.min_by_key(|one| (freedom(one), one.rank())).copied()
     }
 
-    /// Our conventions, upright and in the placement that fits best.
+    /// Our conventions, upright and in the placement that fits best, with each numbering that the file may have.
     fn starts_of_pose(&self) -> Vec<Candidate> {
         let mut placed = self.placed(Convention::default(), self.truth);
         placed.sort_by_key(|one| (one.convention.placement != Placement::Upright, one.rank()));
         placed.truncate(MOST_PLACEMENTS);
-        placed
+        let each = placed.into_iter().flat_map(|one| {
+            let numberings = self.numberings(one.encoding.nothing).into_iter();
+            numberings.map(move |ids| {
+                let encoding = Encoding { ids, ..one.encoding };
+                Candidate { encoding, ..one }
+            })
+        });
+        each.collect()
     }
 
     /// How ids may count: in a picture from elsewhere, numbers at places say nothing yet.
@@ -95,6 +100,7 @@ impl Search<'_> {
         let mut stance = Stance::stated(self.view.camera, moved);
         let mut best: Option<Candidate> = None;
         let (mut last, mut worse): (Option<Vec<f64>>, usize) = (None, 0);
+        let mut told_by = None;
         for _ in 0..MOST_STEPS {
             let next = convention.with(Change::Pose(Pose::Measured(stance)));
             next.pose.camera(self.view.camera)?;
@@ -106,10 +112,13 @@ impl Search<'_> {
             } else {
                 worse += 1;
             }
+            let seen = seen_in_both(&expected, self.observed, placement, &encoding)?;
+            if worse == 0 {
+                told_by = self.only_object(&seen);
+            }
             if read.score.differing == 0 || worse == MOST_WORSE {
                 break;
             }
-            let seen = seen_in_both(&expected, self.observed, placement, &encoding)?;
             let Some(mut step) = self.step(&stance, &seen) else { break };
             last = match last {
                 Some(last) => {
@@ -121,12 +130,24 @@ impl Search<'_> {
             let Some(after) = stance.after(&step.by, step.length, self.view.camera) else { break };
             stance = after;
         }
-        best.filter(|best| best.score.differing < start.score.differing)
+        let best = best.filter(|best| best.score.differing < start.score.differing)?;
+        let Pose::Measured(stance) = best.convention.pose else { return None };
+        let pose = Pose::Measured(Stance { told_by, ..stance });
+        Some(Candidate { convention: best.convention.with(Change::Pose(pose)), ..best })
+    }
+
+    /// The only object of several in the scene that has primitives with a middle among these.
+    fn only_object(&self, seen: &[Seen]) -> Option<usize> {
+        let with_middle = seen.iter().filter(|one| self.center(one.id).is_some());
+        let mut objects = with_middle.map(|one| self.view.scene.locate(one.id.into()).0);
+        let first = objects.next()?;
+        let is_only = objects.all(|object| object == first);
+        (is_only && self.view.scene.objects().len() > 1).then_some(first)
     }
 
     /// The step that brings the middles of what is seen to where the file has them.
     fn step(&self, stance: &Stance, seen: &[Seen]) -> Option<Step> {
-        let freedom = stance.moved.freedom();
+        let freedom = stance.moved.freedom(self.view.camera.projection());
         if seen.len() < PRIMITIVES_EACH * freedom {
             return None;
         }
@@ -156,7 +177,7 @@ impl Search<'_> {
         let weight: f64 = placed.iter().map(|(one, ..)| one.weight()).sum();
         let depths = placed.iter().map(|(one, _, [.., depth])| one.weight() * depth.abs());
         let length = depths.sum::<f64>() / weight;
-        let freedom = stance.moved.freedom();
+        let freedom = stance.moved.freedom(self.view.camera.projection());
         let moved = (0..freedom).map(|way| {
             let mut step = vec![0.0; freedom];
             step[way] = SMALL;

@@ -2,7 +2,7 @@
 
 use super::camera::of_pose;
 use crate::common::glam::DVec3;
-use crate::common::{Camera, Orientation};
+use crate::common::{Camera, Orientation, Projection};
 use crate::diff::why::convention::{Moved, Placement, Pose, Stance};
 use crate::wording::three_digits;
 
@@ -16,33 +16,45 @@ pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&C
     let has_target = matches!(orientation, Orientation::LookAt { .. });
     let shows =
         if placement == Placement::Upright { "shows" } else { "shows, once it is upright," };
+    let scene = match stance.told_by {
+        Some(object) => format!("object {object}"),
+        None => "all of the scene".into(),
+    };
+    let up = if stance.has_another_up(camera) { " (with another up)" } else { "" };
     match stance.moved {
         Moved::Up => {
             let roll = stance.roll(camera);
             let way = if roll > 0.0 { "clockwise" } else { "counter-clockwise" };
             let cause = if has_words { "is its up another" } else { "are its u and v others" };
             let degrees = three_digits(roll.abs());
-            format!("{shows} everything turned {way} by {degrees} degrees: {cause}?")
+            format!(
+                "{shows} everything turned {way} by {degrees} degrees: {cause}, or {scene} turned?"
+            )
         }
         Moved::Direction => {
             let cause = if has_target { ": is its look_at another?" } else { "" };
             format!("{shows} what is seen along about {along}, not along {stated_along}{cause}")
         }
+        Moved::Axes => format!(
+            "{shows} what is seen along about {along}{up}, not along {stated_along}: are its u, v and w others, or {scene} \
+             turned?"
+        ),
         Moved::Eye => format!(
             "{shows} what an eye at about {eye} sees in the same direction, not one at {stated_eye}: is its eye another, or \
-             all of the scene moved?"
+             {scene} moved or of another size?"
+        ),
+        Moved::EyeAroundTarget if camera.projection() == Projection::Parallel => format!(
+            "{shows} what is seen along about {along}, not along {stated_along}, with the same point in the middle: is its \
+             eye another, or {scene} turned?"
         ),
         Moved::EyeAroundTarget => format!(
             "{shows} what an eye at about {eye} sees that looks at the same point, not one at {stated_eye}: is its eye \
-             another, or all of the scene turned?"
+             another, or {scene} turned or of another size?"
         ),
-        Moved::All => {
-            let up = if stance.has_another_up(camera) { " (with another up)" } else { "" };
-            format!(
-                "{shows} what an eye at about {eye} sees along about {along}{up}, not one at {stated_eye} along \
-                 {stated_along}: are its eye and its direction of view others, or is all of the scene moved?"
-            )
-        }
+        Moved::All => format!(
+            "{shows} what an eye at about {eye} sees along about {along}{up}, not one at {stated_eye} along {stated_along}: \
+             are its eye and its direction of view others, or {scene} moved or turned?"
+        ),
     }
 }
 
@@ -96,7 +108,7 @@ mod tests {
         use Placement::{Upright, UpsideDown};
         assert_eq!(
             said(Moved::Up, &[0.1], Upright),
-            "shows everything turned clockwise by 5.73 degrees: is its up another?"
+            "shows everything turned clockwise by 5.73 degrees: is its up another, or all of the scene turned?"
         );
         assert_eq!(
             said(Moved::Direction, &[0.0, -0.1], Upright),
@@ -105,18 +117,29 @@ mod tests {
         assert_eq!(
             said(Moved::Eye, &[0.25, 0.0, -0.5], UpsideDown),
             "shows, once it is upright, what an eye at about (0.25, 0.5, 2.5) sees in the same direction, not one at \
-             (0, 0.5, 3): is its eye another, or all of the scene moved?"
+             (0, 0.5, 3): is its eye another, or all of the scene moved or of another size?"
         );
         assert_eq!(
             said(Moved::EyeAroundTarget, &[0.0, 0.0012, 0.0], Upright),
             "shows what an eye at about (0, 0.5012, 3) sees that looks at the same point, not one at (0, 0.5, 3): is its \
-             eye another, or all of the scene turned?"
+             eye another, or all of the scene turned or of another size?"
         );
         let all = "shows what an eye at about (1, 0.5, 3) sees along about (-0.1, 0, -0.995), not one at (0, 0.5, 3) along \
-             (0, 0, -1): are its eye and its direction of view others, or is all of the scene moved?";
+             (0, 0, -1): are its eye and its direction of view others, or all of the scene moved or turned?";
         assert_eq!(said(Moved::All, &[1.0, 0.0, 0.0, 0.0, 0.1, 0.0], Upright), all);
+        assert_eq!(
+            said(Moved::Axes, &[0.0, -0.1, 0.2], Upright),
+            "shows what is seen along about (0.099, 0.01, -0.995) (with another up), not along (0, 0, -1): are its u, v and w \
+             others, or all of the scene turned?"
+        );
         let rolled = said(Moved::All, &[1.0, 0.0, 0.0, 0.0, 0.1, 0.02], Upright);
         assert!(rolled.contains("-0.995) (with another up), not one at"), "{rolled}");
+        let alone = Stance { told_by: Some(2), ..Stance::stated(&camera, Moved::Eye) };
+        let said = of_stance(&alone, Upright, Some(&camera));
+        assert!(
+            said.ends_with("is its eye another, or object 2 moved or of another size?"),
+            "{said}"
+        );
         assert_eq!(coordinates(DVec3::splat(1234.0), DVec3::ZERO)[0], "(1234, 1234, 1234)");
     }
 }

@@ -56,6 +56,11 @@ fn another_direction_and_another_up_are_named() {
             assert!(is_near(found.axes[2], back, 1e-3), "{projection:?} {found:?} {back}");
             assert_eq!(found.moved, Moved::Direction);
             assert!(said.ends_with("is its look_at another?"), "{said}");
+            let both = with(elsewhere, up + Vec3::new(0.3, 0.0, 0.0));
+            let (found, _, said) = stance(view, &both);
+            assert_eq!(found.moved, Moved::Axes, "{projection:?}");
+            assert!(is_near(found.axes[2], back, 1e-3), "{projection:?} {found:?} {back}");
+            assert!(said.contains("(with another up)"), "{said}");
             let (found, _, said) = stance(view, &with(target, up + Vec3::new(0.2, 0.0, 0.0)));
             assert_eq!(found.moved, Moved::Up, "{projection:?}");
             assert!(said.contains(" clockwise by ") == (found.roll(view.camera) > 0.0), "{said}");
@@ -93,6 +98,54 @@ fn another_eye_is_named_from_ids_that_count_from_1_and_upside_down() {
         assert!(is_near(found.eye, eye.as_dvec3(), 0.01), "{found:?}");
         assert!(said.contains("upside down") && said.contains("counts ids from 1"), "{said}");
     });
+}
+
+/// How far the eye of a parallel camera is from what it looks at, no picture tells.
+#[test]
+fn another_eye_of_parallel_rays_is_told_as_a_direction() {
+    with_scene(&coarse_lecture(), [132, 88], Projection::Parallel, |view| {
+        let description = *view.camera.description();
+        let Orientation::LookAt { target, .. } = description.orientation else { panic!() };
+        let from_target = description.eye - target;
+        let eye = target + 1.5 * (from_target + Vec3::new(1.0, 0.5, 0.0));
+        let (found, _, said) =
+            stance(view, &finding_of_camera(view, CameraDescription { eye, ..description }));
+        let back = (eye - target).as_dvec3().normalize();
+        assert!(is_near(found.axes[2], back, 2e-3), "{found:?} {back}");
+        assert_eq!(found.moved, Moved::EyeAroundTarget);
+        let distance = (found.eye - target.as_dvec3()).length();
+        assert!((distance - f64::from(from_target.length())).abs() < 1e-6, "{distance}");
+        assert!(said.contains("with the same point in the middle"), "{said}");
+    });
+}
+
+/// Over a floor without an end, a mesh that is moved is what an eye sees that is moved the other way.
+#[test]
+fn one_object_among_others_may_be_moved_itself() {
+    let moved = |by: f32| {
+        let mut dice = bothways_test_support::Dice(5);
+        let mut triangle = || {
+            let middle = 0.6 * dice.point();
+            let [a, b, c] =
+                [(); 3].map(|()| middle + 0.3 * dice.point() + Vec3::new(by, 0.0, -3.0));
+            [a, b, c]
+        };
+        let triangles: Vec<[Vec3; 3]> = (0..40).map(|_| triangle()).collect();
+        let positions: Vec<Vec3> = triangles.concat();
+        let corners = (0..).map(|triangle: u32| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2]);
+        let mesh = crate::common::Mesh::new(positions, corners.take(40).collect()).unwrap();
+        let floor = crate::common::Plane { point: Vec3::new(0.0, -1.5, 0.0), normal: Vec3::Y };
+        let shapes = [crate::common::Shape::Mesh(mesh.into()), crate::common::Shape::Plane(floor)];
+        crate::common::Scene::new(shapes.map(crate::common::Object::from).to_vec()).unwrap()
+    };
+    let camera = Camera::new(CameraDescription { image: [132, 99], ..Default::default() }).unwrap();
+    let [scene, other] = [0.0, 0.25].map(moved);
+    let truth = true_ids(&View::new(&other, &camera));
+    let view = View::new(&scene, &camera);
+    let (found, _, said) = stance(&view, &finding(&view, truth));
+    assert_eq!((found.moved, found.told_by), (Moved::Eye, Some(0)));
+    assert!(is_near(found.eye, DVec3::new(-0.25, 0.0, 0.0), 0.01), "{found:?}");
+    assert!(said.ends_with("is its eye another, or object 0 moved or of another size?"), "{said}");
 }
 
 #[test]
