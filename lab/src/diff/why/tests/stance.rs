@@ -135,7 +135,7 @@ fn one_object_among_others_may_be_moved_itself() {
         let corners = (0..).map(|triangle: u32| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2]);
         let mesh = crate::common::Mesh::new(positions, corners.take(40).collect()).unwrap();
         let floor = crate::common::Plane { point: Vec3::new(0.0, -1.5, 0.0), normal: Vec3::Y };
-        let shapes = [crate::common::Shape::Mesh(mesh.into()), crate::common::Shape::Plane(floor)];
+        let shapes = [crate::common::Shape::Mesh(mesh), crate::common::Shape::Plane(floor)];
         crate::common::Scene::new(shapes.map(crate::common::Object::from).to_vec()).unwrap()
     };
     let camera = Camera::new(CameraDescription { image: [132, 99], ..Default::default() }).unwrap();
