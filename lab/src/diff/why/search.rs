@@ -3,7 +3,7 @@
 //! Each hypothesis is drawn. First every single change and every pair of changes on different axes is held against
 //! some rows of the file, with every placement; the best of them are drawn as a whole, and changes are added as long
 //! as each of them explains at least half of what is left. A change that explains less is left out again. The file itself
-//! tells planes, what is not drawn, and the size and the place of the whole picture.
+//! tells planes, what is not drawn, the size and the place of the whole picture, and the eye and the axes from which it is seen so.
 
 mod framing;
 mod pose;
