@@ -280,3 +280,38 @@ fn solved(rows: &[Row], freedom: usize) -> Option<Vec<f64>> {
     }
     by.iter().all(|by| by.is_finite()).then_some(by)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn least_squares_weigh_what_they_are_told_and_leave_what_no_place_tells() {
+        let row = |slopes: [[f64; 2]; 3], offset: [f64; 2], weight: f64| Row {
+            slopes: slopes.to_vec(),
+            offset,
+            weight,
+        };
+        let slopes = [[1.0, 0.0], [1.0, 2.0], [0.0, 0.0]];
+        let rows = [row(slopes, [5.0, 4.0], 1.0), row(slopes, [9.0, 4.0], 3.0)];
+        let by = solved(&rows, 3).unwrap();
+        // Of 5 and 9, with their weights, 8.
+        let is_near = |one: f64, other: f64| (one - other).abs() < 1e-6;
+        assert!(is_near(by[0], 6.0) && is_near(by[1], 2.0) && by[2] == 0.0, "{by:?}");
+        assert!(is_near(rows[0].left(&by), 3.0) && is_near(rows[1].left(&by), 1.0));
+        assert_eq!(solved(&[], 1), None);
+    }
+
+    #[test]
+    fn a_step_is_as_long_as_all_that_would_follow() {
+        let mut step = Step { by: vec![0.01, 0.0], length: 1.0 };
+        step.extrapolate(&[0.02, 0.0]);
+        assert_eq!(step.by, [0.02, 0.0]);
+        // The last step was long, or went back.
+        for last in [[0.2, 0.0], [-0.02, 0.0]] {
+            let mut step = Step { by: vec![0.01, 0.0], length: 1.0 };
+            step.extrapolate(&last);
+            assert_eq!(step.by, [0.01, 0.0]);
+        }
+    }
+}
