@@ -343,6 +343,25 @@ impl Convention {
     }
 }
 
+/// A camera that looks at a point, with an `up` that is tilted and not of unit length.
+#[cfg(test)]
+fn tilted_camera(projection: Projection) -> Camera {
+    use crate::common::glam::Vec3;
+    use crate::common::{CameraDescription, Orientation};
+    let description = CameraDescription {
+        projection,
+        eye: Vec3::new(1.0, 2.0, 6.5),
+        orientation: Orientation::LookAt {
+            target: Vec3::new(0.5, 0.75, -1.0),
+            up: Vec3::new(0.25, 2.0, 0.5),
+        },
+        distance: 1.5,
+        viewport: [2.0, 1.5],
+        image: [8, 6],
+    };
+    Camera::new(description).unwrap()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

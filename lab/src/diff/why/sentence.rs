@@ -4,16 +4,13 @@ mod camera;
 mod omission;
 mod stance;
 
-use super::convention::{
-    Change, Convention, Depth, Edges, Faces, Look, Placement, Pose, Rays, Sampling,
-};
+use super::convention::{Change, Convention, Depth, Edges, Faces, Look, Placement, Rays, Sampling};
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::search::Explanation;
 use crate::common::{Camera, Projection};
 use crate::wording::{readable, three_digits};
 use camera::{of_fields, of_framing, of_pose};
 use omission::{of_far, of_near, of_omission};
-use stance::of_stance;
 
 impl Explanation {
     /// The explanation in sentences, one for each part; `name` is the name of the file.
@@ -114,8 +111,7 @@ fn sentence(
             of_sampling(sampling, ["j", "W", "cx", "column", "left", "right"])
         }
         Change::Rows(sampling) => of_sampling(sampling, ["i", "H", "cy", "row", "top", "bottom"]),
-        Change::Pose(Pose::Measured(stance)) => of_stance(&stance, placement, camera),
-        Change::Pose(pose) => of_pose(pose).into(),
+        Change::Pose(pose) => of_pose(pose, placement, camera),
         Change::Framing(framing) => of_framing(framing, placement, camera),
         Change::Field(field) => of_fields(field, camera),
         Change::Look(Look::Backward | Look::Forward) => {

@@ -71,7 +71,7 @@ impl Pose {
     pub fn camera(self, stated: &Camera) -> Option<Camera> {
         let with = match self {
             Pose::AsStated => *stated.description(),
-            Pose::Measured(stance) => stance.camera(stated),
+            Pose::Measured(stance) => stance.description(stated),
             Pose::EyeLeftOut
             | Pose::EyeAdded
             | Pose::EyeAfterTurn
@@ -218,23 +218,8 @@ fn rounded(value: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diff::why::convention::{Change, Convention};
+    use crate::diff::why::convention::{Change, Convention, tilted_camera};
     use crate::diff::why::rays::ViewingRays;
-
-    fn look_at(projection: Projection) -> Camera {
-        let description = CameraDescription {
-            projection,
-            eye: Vec3::new(1.0, 2.0, 6.5),
-            orientation: Orientation::LookAt {
-                target: Vec3::new(0.5, 0.75, -1.0),
-                up: Vec3::new(0.25, 2.0, 0.5),
-            },
-            distance: 1.5,
-            viewport: [2.0, 1.5],
-            image: [8, 6],
-        };
-        Camera::new(description).unwrap()
-    }
 
     fn is_near(one: DVec3, other: DVec3) -> bool {
         (one - other).length() <= 1e-6 * one.length().max(1.0)
@@ -243,7 +228,7 @@ mod tests {
     /// The axes that a renderer makes of the direction of view, with unit length or without.
     #[test]
     fn axes_that_are_not_normalized_make_the_rays_of_their_formula() {
-        let camera = look_at(Projection::Perspective);
+        let camera = tilted_camera(Projection::Perspective);
         let Orientation::LookAt { target, up } = camera.description().orientation else { panic!() };
         let (up, back) = (up.as_dvec3(), (camera.eye() - target).as_dvec3());
         let (w, u) = (back.normalize(), up.cross(back).normalize());
@@ -272,7 +257,7 @@ mod tests {
     #[test]
     fn a_wrong_matrix_puts_vertices_where_the_camera_of_its_pose_sees_them() {
         for projection in [Projection::Perspective, Projection::Parallel] {
-            let camera = look_at(projection);
+            let camera = tilted_camera(projection);
             let (eye, [u, v, w]) = (camera.eye().as_dvec3(), [camera.u(), camera.v(), camera.w()]);
             let by_rows = |p: DVec3| DVec3::new(u.dot(p), v.dot(p), w.dot(p));
             let by_columns = |p: DVec3| p.x * u + p.y * v + p.z * w;
@@ -305,7 +290,7 @@ mod tests {
 
     #[test]
     fn poses_are_those_that_the_camera_s_words_allow() {
-        let camera = look_at(Projection::Parallel);
+        let camera = tilted_camera(Projection::Parallel);
         let found = poses(&camera);
         // The distance is nothing to parallel rays, and `up` for `v` no camera of ours.
         let never = [Pose::DirectionAsTarget, Pose::UpAsV, Pose::BackNotNormalized];

@@ -110,7 +110,7 @@ impl Stance {
     }
 
     /// The stated camera with this eye and these axes.
-    pub(in crate::diff::why) fn camera(&self, stated: &Camera) -> CameraDescription {
+    pub(in crate::diff::why) fn description(&self, stated: &Camera) -> CameraDescription {
         let description = *stated.description();
         CameraDescription { eye: self.eye.as_vec3(), orientation: frame(self.axes), ..description }
     }
@@ -170,26 +170,12 @@ mod tests {
     use super::*;
     use crate::common::View;
     use crate::common::glam::Vec3;
-
-    fn camera(projection: Projection) -> Camera {
-        let description = CameraDescription {
-            projection,
-            eye: Vec3::new(1.0, 2.0, 6.5),
-            orientation: Orientation::LookAt {
-                target: Vec3::new(0.5, 0.75, -1.0),
-                up: Vec3::new(0.25, 2.0, 0.5),
-            },
-            distance: 1.5,
-            viewport: [2.0, 1.5],
-            image: [8, 6],
-        };
-        Camera::new(description).unwrap()
-    }
+    use crate::diff::why::convention::tilted_camera;
 
     #[test]
     fn a_place_is_where_the_ray_of_the_pixel_goes() {
         for projection in [Projection::Perspective, Projection::Parallel] {
-            let camera = camera(projection);
+            let camera = tilted_camera(projection);
             let stance = Stance::stated(&camera, Moved::All);
             for (i, j) in [(0, 0), (2, 7), (5, 3)] {
                 let ray = camera.viewing_ray(i, j);
@@ -200,14 +186,14 @@ mod tests {
                 assert!((depth + camera.w().dot(point - stance.eye)).abs() < 1e-9);
             }
         }
-        let behind = camera(Projection::Perspective);
+        let behind = tilted_camera(Projection::Perspective);
         let stance = Stance::stated(&behind, Moved::All);
         assert_eq!(stance.place(stance.eye + behind.w(), &behind), None);
     }
 
     #[test]
     fn a_step_moves_what_it_says() {
-        let camera = camera(Projection::Perspective);
+        let camera = tilted_camera(Projection::Perspective);
         let [u, v, w] = [camera.u(), camera.v(), camera.w()];
         let step = |moved: Moved, step: &[f64]| {
             Stance::stated(&camera, moved).after(step, 2.0, &camera).unwrap()
@@ -230,7 +216,7 @@ mod tests {
         let all = step(Moved::All, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.1]);
         assert!(all.eye.abs_diff_eq(eye + u, 1e-14) && all.axes == rolled.axes);
         // The camera of a stance sees from there.
-        let seen = Camera::new(all.camera(&camera)).unwrap();
+        let seen = Camera::new(all.description(&camera)).unwrap();
         let scene = crate::common::Scene::new(Vec::new()).unwrap();
         let offset = View::new(&scene, &seen).offset(Vec3::ZERO);
         assert!(offset.abs_diff_eq(-all.eye, 1e-6));

@@ -1,14 +1,15 @@
 //! The eye, the axes and the viewport of a renderer in sentences.
 
+use super::stance::of_stance;
 use crate::common::{Camera, Projection};
 use crate::diff::why::convention::{Field, Framing, Placement, Pose};
 use crate::wording::three_digits;
 
-/// The eye and the axes.
-pub(super) fn of_pose(pose: Pose) -> &'static str {
-    match pose {
+/// The eye and the axes; the camera tells what measured ones are not.
+pub(super) fn of_pose(pose: Pose, placement: Placement, camera: Option<&Camera>) -> String {
+    let words = match pose {
+        Pose::Measured(stance) => return of_stance(&stance, placement, camera),
         Pose::AsStated => "has the camera's eye and axes",
-        Pose::Measured(_) => "has another eye, or other axes",
         Pose::EyeLeftOut => {
             "looks from the origin of the world: begin its rays at the eye, or subtract the eye from each vertex"
         }
@@ -49,7 +50,8 @@ pub(super) fn of_pose(pose: Pose) -> &'static str {
         Pose::NothingNormalized => {
             "does not normalize w and u: divide w by its length, then u = up x w by its length, and take v = w x u then"
         }
-    }
+    };
+    words.into()
 }
 
 /// The viewport, and every other one of the same size, if a camera tells.

@@ -1,14 +1,13 @@
 //! An eye and axes that were measured, in sentences.
 
-use super::camera::of_pose;
 use crate::common::glam::DVec3;
 use crate::common::{Camera, Orientation, Projection};
-use crate::diff::why::convention::{Moved, Placement, Pose, Stance};
+use crate::diff::why::convention::{Moved, Placement, Stance};
 use crate::wording::three_digits;
 
 /// What of the eye and the axes is another; the camera tells what it is not.
 pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&Camera>) -> String {
-    let Some(camera) = camera else { return of_pose(Pose::Measured(*stance)).into() };
+    let Some(camera) = camera else { return "has another eye, or other axes".into() };
     let [eye, stated_eye] = coordinates(stance.eye, camera.eye().as_dvec3());
     let [along, stated_along] = coordinates(-stance.axes[2], -camera.w());
     let orientation = camera.description().orientation;
@@ -62,7 +61,7 @@ pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&C
 fn coordinates(one: DVec3, other: DVec3) -> [String; 2] {
     // Of the largest three digits, of the difference two.
     let place = |value: f64, digits: i32| {
-        if value > 0.0 { digits - 1 - digits_before(value) } else { 0 }
+        if value > 0.0 { digits - 1 - power_of_first_digit(value) } else { 0 }
     };
     let largest = one.abs().max(other.abs()).max_element();
     let difference = (one - other).abs().max_element();
@@ -81,9 +80,9 @@ fn coordinates(one: DVec3, other: DVec3) -> [String; 2] {
     })
 }
 
-/// The power of ten of the first digit.
+/// The power of ten that the first digit counts.
 #[expect(clippy::cast_possible_truncation, reason = "at most 308")]
-fn digits_before(value: f64) -> i32 {
+fn power_of_first_digit(value: f64) -> i32 {
     value.log10().floor() as i32
 }
 
