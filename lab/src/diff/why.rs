@@ -6,6 +6,7 @@
 
 mod blank;
 mod candidate;
+mod contour;
 mod convention;
 mod differences;
 mod distances;

@@ -241,6 +241,12 @@ impl<'a> Expected<'a> {
         score
     }
 
+    /// How deep along the axis of the view lies what a pixel shows, from the eye of a perspective camera or the viewport of a
+    /// parallel one.
+    pub(super) fn depth(&self, pixel: usize) -> f64 {
+        self.drawn.t[pixel] * self.rays.distance
+    }
+
     /// Tells of every drawn pixel: its index among the drawn ones, the index in the file, its row and its column.
     pub(super) fn each_pixel(
         &self,

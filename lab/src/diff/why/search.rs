@@ -6,6 +6,8 @@
 //! tells planes, what is not drawn, the size and the place of the whole picture, and the eye and the axes from which it is seen so.
 
 mod framing;
+mod least_squares;
+mod marks;
 mod pose;
 
 use super::candidate::{Candidate, as_good, parts};

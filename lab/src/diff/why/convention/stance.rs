@@ -32,6 +32,8 @@ pub struct Stance {
     pub moved: Moved,
     /// The number of the only object whose places tell it, of several in the scene: it alone may be moved.
     pub told_by: Option<usize>,
+    /// Whether the contour of a mask alone tells it, which another field of view stretches much as another distance does.
+    pub by_contour: bool,
 }
 
 impl Moved {
@@ -64,7 +66,7 @@ impl Stance {
     /// The stance of a camera, from which something of it will be moved.
     pub(in crate::diff::why) fn stated(camera: &Camera, moved: Moved) -> Stance {
         let axes = [camera.u(), camera.v(), camera.w()];
-        Stance { eye: camera.eye().as_dvec3(), axes, moved, told_by: None }
+        Stance { eye: camera.eye().as_dvec3(), axes, moved, told_by: None, by_contour: false }
     }
 
     /// The stance a step farther in each of its ways: along `u`, `v` and `w` in units of a length of the scene, and turned
@@ -129,6 +131,17 @@ impl Stance {
         Some([x * scale * width / vw, -y * scale * height / vh, depth])
     }
 
+    /// The point of the world that is seen at a place, as [`Stance::place`] gives it.
+    pub(in crate::diff::why) fn point(&self, [x, y, depth]: [f64; 3], stated: &Camera) -> DVec3 {
+        let scale = match stated.projection() {
+            Projection::Perspective => depth / stated.distance(),
+            Projection::Parallel => 1.0,
+        };
+        let ([vw, vh], [width, height]) = (stated.viewport(), stated.image().map(f64::from));
+        let [u, v, w] = self.axes;
+        self.eye + x * vw / width * scale * u - y * vh / height * scale * v - depth * w
+    }
+
     /// The angle in degrees by which `v` is turned to the left from that of the camera, where `w` is the same.
     pub(in crate::diff::why) fn roll(&self, stated: &Camera) -> f64 {
         let v = self.axes[1];
@@ -184,6 +197,7 @@ mod tests {
                 assert!((x - (f64::from(j) + 0.5 - 4.0)).abs() < 1e-9, "{x}");
                 assert!((y - (f64::from(i) + 0.5 - 3.0)).abs() < 1e-9, "{y}");
                 assert!((depth + camera.w().dot(point - stance.eye)).abs() < 1e-9);
+                assert!(stance.point([x, y, depth], &camera).abs_diff_eq(point, 1e-9));
             }
         }
         let behind = tilted_camera(Projection::Perspective);

@@ -19,6 +19,7 @@ pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&C
         Some(object) => format!("object {object}"),
         None => "all of the scene".into(),
     };
+    let field = if stance.by_contour { ", its field of view" } else { "" };
     let up = if stance.has_another_up(camera) { " (with another up)" } else { "" };
     match stance.moved {
         Moved::Up => {
@@ -31,7 +32,12 @@ pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&C
             )
         }
         Moved::Direction => {
-            let cause = if has_target { ": is its look_at another?" } else { "" };
+            let cause = match (has_target, stance.by_contour) {
+                (true, false) => ": is its look_at another?".into(),
+                (true, true) => format!(": is its look_at another, or {scene} moved?"),
+                (false, false) => String::new(),
+                (false, true) => format!(": is its direction of view another, or {scene} moved?"),
+            };
             format!("{shows} what is seen along about {along}, not along {stated_along}{cause}")
         }
         Moved::Axes => format!(
@@ -39,8 +45,8 @@ pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&C
              turned?"
         ),
         Moved::Eye => format!(
-            "{shows} what an eye at about {eye} sees in the same direction, not one at {stated_eye}: is its eye another, or \
-             {scene} moved or of another size?"
+            "{shows} what an eye at about {eye} sees in the same direction, not one at {stated_eye}: is its eye \
+             another{field}, or {scene} moved or of another size?"
         ),
         Moved::EyeAroundTarget if camera.projection() == Projection::Parallel => format!(
             "{shows} what is seen along about {along}, not along {stated_along}, with the same point in the middle: is its \
@@ -48,7 +54,7 @@ pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&C
         ),
         Moved::EyeAroundTarget => format!(
             "{shows} what an eye at about {eye} sees that looks at the same point, not one at {stated_eye}: is its eye \
-             another, or {scene} turned or of another size?"
+             another{field}, or {scene} turned or of another size?"
         ),
         Moved::All => format!(
             "{shows} what an eye at about {eye} sees along about {along}{up}, not one at {stated_eye} along {stated_along}: \
@@ -139,6 +145,13 @@ mod tests {
             said.ends_with("is its eye another, or object 2 moved or of another size?"),
             "{said}"
         );
+        let of_mask = |moved: Moved| Stance { by_contour: true, ..Stance::stated(&camera, moved) };
+        let said = of_stance(&of_mask(Moved::EyeAroundTarget), Upright, Some(&camera));
+        let end =
+            "is its eye another, its field of view, or all of the scene turned or of another size?";
+        assert!(said.ends_with(end), "{said}");
+        let said = of_stance(&of_mask(Moved::Direction), Upright, Some(&camera));
+        assert!(said.ends_with(": is its look_at another, or all of the scene moved?"), "{said}");
         assert_eq!(coordinates(DVec3::splat(1234.0), DVec3::ZERO)[0], "(1234, 1234, 1234)");
     }
 }

@@ -1,0 +1,131 @@
+//! Masks from another eye, or in another direction: their contours alone tell it.
+
+use super::*;
+use crate::common::Orientation;
+use crate::common::glam::{DVec3, Vec3};
+
+/// What is found in the mask that another camera sees, perhaps of another scene.
+fn finding_of_mask(view: &View, scene: &crate::common::Scene, other: CameraDescription) -> Finding {
+    let camera = Camera::new(other).unwrap();
+    let mask = file(&View::new(scene, &camera), &Convention::default(), false);
+    find_conventions(view, &mask).unwrap().finding
+}
+
+/// The stance that is named, and the sentence, if one is.
+fn named(view: &View, finding: &Finding) -> Option<(Stance, String)> {
+    let Finding::Explained(found) = finding else { return None };
+    let stance = found.iter().find_map(|one| match one.convention.pose {
+        Pose::Measured(stance) => Some((stance, one)),
+        _ => None,
+    });
+    stance.map(|(stance, one)| (stance, one.sentences("A", view.camera).join(" / ")))
+}
+
+/// The teapot of the lecture alone, and larger.
+fn teapot(scale: f32) -> LoadedScene {
+    let text = format!(
+        r#"
+        [camera]
+        eye = [1.0, 2.1, 6.8]
+        look_at = [0.1, 0.75, 0]
+        distance = 2
+        [[object]]
+        generate = {{ kind = "teapot", divisions = [4, 4] }}
+        scale = {scale}
+        rotate = {{ axis = [0, 1, 0], degrees = 25 }}
+        translate = [-0.35, 0, -0.3]
+        "#
+    );
+    let file = GivenFile::new("teapot.toml", text.as_bytes());
+    scenes::load_file(&InputFile::given(&[file], 0), None).unwrap()
+}
+
+#[test]
+fn another_eye_is_named_from_a_mask() {
+    with_scene(&teapot(0.6), [160, 120], Projection::Perspective, |view| {
+        let description = *view.camera.description();
+        for by in [[0.4, 0.0, 0.0], [0.0, 0.5, 0.0], [0.5, -0.2, -1.0], [0.0, 0.0, 0.7]] {
+            let eye = description.eye + Vec3::from_array(by);
+            let around = CameraDescription { eye, ..description };
+            let found = named(view, &finding_of_mask(view, view.scene, around));
+            let (stance, said) = found.unwrap_or_else(|| panic!("{by:?}"));
+            assert_eq!(stance.moved, Moved::EyeAroundTarget, "{by:?} {said}");
+            assert!(stance.eye.abs_diff_eq(eye.as_dvec3(), 0.03), "{by:?} {said}");
+            assert!(said.contains("is its eye another, its field of view, or"), "{said}");
+        }
+    });
+}
+
+#[test]
+fn another_direction_and_another_up_are_named_from_a_mask() {
+    for projection in [Projection::Perspective, Projection::Parallel] {
+        with_scene(&teapot(0.6), [160, 120], projection, |view| {
+            let description = *view.camera.description();
+            let Orientation::LookAt { target, up } = description.orientation else { panic!() };
+            let with = |target, up| {
+                let orientation = Orientation::LookAt { target, up };
+                let other = CameraDescription { orientation, ..description };
+                let found = named(view, &finding_of_mask(view, view.scene, other));
+                found.unwrap_or_else(|| panic!("{projection:?} {orientation:?}"))
+            };
+            let (stance, said) = with(target, up + Vec3::new(0.2, 0.0, 0.0));
+            assert_eq!(stance.moved, Moved::Up, "{projection:?} {said}");
+            let elsewhere = target + Vec3::new(0.4, 0.3, 0.1);
+            let (stance, said) = with(elsewhere, up);
+            let back: DVec3 = (description.eye - elsewhere).as_dvec3().normalize();
+            assert_eq!(stance.moved, Moved::Direction, "{projection:?} {said}");
+            assert!(stance.axes[2].abs_diff_eq(back, 2e-3), "{projection:?} {said}");
+            assert!(said.ends_with("is its look_at another, or all of the scene moved?"), "{said}");
+        });
+    }
+}
+
+/// What a mask cannot tell from another eye, the sentence names.
+#[test]
+fn what_may_as_well_be_the_cause_of_a_mask_is_named() {
+    with_scene(&teapot(0.6), [160, 120], Projection::Perspective, |view| {
+        let description = *view.camera.description();
+        let field = description.viewport.map(|side| 1.1 * side);
+        let wider = CameraDescription { viewport: field, ..description };
+        let found = finding_of_mask(view, view.scene, wider);
+        if let Some((_, said)) = named(view, &found) {
+            assert!(said.contains("its field of view"), "{said}");
+        }
+        let found = finding_of_mask(view, &teapot(0.63).scene, description);
+        if let Some((_, said)) = named(view, &found) {
+            assert!(said.contains("of another size"), "{said}");
+        }
+    });
+}
+
+/// A ball is a disc from everywhere.
+#[test]
+fn a_mask_of_a_ball_tells_no_eye_beside_it() {
+    let ball = crate::common::Sphere { center: Vec3::new(0.2, 0.1, -3.0), radius: 0.8 };
+    let scene = crate::common::Scene::new(vec![crate::common::Shape::Sphere(ball).into()]).unwrap();
+    let description = CameraDescription {
+        image: [160, 120],
+        orientation: Orientation::LookAt { target: Vec3::new(0.2, 0.1, -3.0), up: Vec3::Y },
+        ..CameraDescription::default()
+    };
+    let camera = Camera::new(description).unwrap();
+    let view = View::new(&scene, &camera);
+    let eye = description.eye + Vec3::new(0.5, 0.2, -0.4);
+    let found = finding_of_mask(&view, &scene, CameraDescription { eye, ..description });
+    let found = named(&view, &found);
+    assert!(
+        found.as_ref().is_none_or(|(stance, _)| stance.moved != Moved::EyeAroundTarget),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_mask_of_another_shape_tells_no_eye() {
+    with_scene(&teapot(0.6), [160, 120], Projection::Perspective, |view| {
+        let other = BUILT_IN.iter().find(|scene| scene.name == "many").unwrap();
+        let file = GivenFile::new("many.toml", other.toml.as_bytes());
+        let other = scenes::load_file(&InputFile::given(&[file], 0), None).unwrap();
+        let camera = CameraDescription { image: view.camera.image(), ..other.camera };
+        assert_eq!(named(view, &finding_of_mask(view, &other.scene, camera)), None);
+    });
+}
