@@ -85,9 +85,14 @@ impl Explanation {
 /// Why a file cannot be searched for conventions.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SearchError {
-    /// The file has colours alone, or several samples a pixel.
+    /// The file has several samples a pixel.
     #[error("conventions are searched in masks, ids and distances of one sample a pixel")]
-    Kind,
+    Samples,
+    /// The file has colours alone.
+    #[error(
+        "colours alone tell none; give --background, the colour of what is not covered, or compare masks, ids or distances"
+    )]
+    Colors,
     /// No placement takes the file to the camera's image.
     #[error(
         "the file has {} x {} pixels and the camera {} x {}; give --size as the file has it",
@@ -105,10 +110,12 @@ pub enum SearchError {
 ///
 /// # Errors
 ///
-/// If the file has colours alone or several samples a pixel, or its size is neither the camera's nor the camera's with
+/// If the file has colours alone, or several samples a pixel, or its size is neither the camera's nor the camera's with
 /// rows and columns exchanged.
 pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchError> {
-    let observed = Observed::of(file).ok_or(SearchError::Kind)?;
+    let unreadable =
+        || if file.has_coverage() { SearchError::Samples } else { SearchError::Colors };
+    let observed = Observed::of(file).ok_or_else(unreadable)?;
     let image @ [width, height] = view.camera.image();
     let distinct = Placement::distinct(std::iter::once(image));
     let placements: Vec<Placement> =

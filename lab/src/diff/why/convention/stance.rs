@@ -50,6 +50,11 @@ impl Moved {
         all
     }
 
+    /// Whether the eye may stand elsewhere.
+    pub(in crate::diff::why) fn is_of_eye(self) -> bool {
+        matches!(self, Moved::Eye | Moved::EyeAroundTarget | Moved::All)
+    }
+
     /// In how many ways the stance can be another.
     pub(in crate::diff::why) fn freedom(self, projection: Projection) -> usize {
         match self {

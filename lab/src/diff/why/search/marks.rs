@@ -16,6 +16,9 @@ use crate::common::glam::DVec3;
 const PRIMITIVES_EACH: usize = 2;
 const PIECES_EACH: usize = 30;
 
+/// So many times as far as what is seen of a plane at its contour lies the horizon.
+const HORIZON: f64 = 1e6;
+
 /// By what a file tells places.
 pub(super) enum Landmarks {
     /// By the middles of its primitives.
@@ -98,9 +101,12 @@ impl Search<'_> {
         let marks = pieces.iter().map(|piece| {
             let pixel = piece.pixel[0] * width + piece.pixel[1];
             let [x, y] = [0, 1].map(|axis| piece.place[axis] - middle[axis]);
+            // The contour of a plane is its horizon, which no step of the eye brings nearer.
+            let far = if self.center(ids[pixel]).is_some() { 1.0 } else { HORIZON };
+            let depth = far * expected.depth(pixel);
             Mark {
                 id: ids[pixel],
-                point: stance.point([x, y, expected.depth(pixel)], self.view.camera),
+                point: stance.point([x, y, depth], self.view.camera),
                 offset: piece.across.map(|part| piece.farther * part),
                 across: Some(piece.across),
                 weight: piece.length,

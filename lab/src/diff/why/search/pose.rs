@@ -161,12 +161,16 @@ impl Search<'_> {
         (is_only && self.view.scene.objects().len() > 1).then_some(first)
     }
 
-    /// Whether marks of a contour tell each part of a stance: that of a sphere, for one, is the same from many eyes.
+    /// Whether marks of a contour tell each part of a stance: that of a sphere, for one, is the same from many eyes, and a horizon
+    /// from all.
     fn tell_all(&self, landmarks: &Landmarks, stance: &Stance, marks: &[Mark]) -> bool {
         if matches!(landmarks, Landmarks::Middles) {
             return true;
         }
         let freedom = stance.moved.freedom(self.view.camera.projection());
+        if stance.moved.is_of_eye() && marks.iter().all(|mark| self.center(mark.id).is_none()) {
+            return false;
+        }
         let Some((rows, _)) = self.rows(stance, marks) else { return false };
         let doubts = NormalEquations::new(&rows, freedom).doubts();
         doubts.is_some_and(|doubts| doubts.iter().all(|doubt| OFF * doubt <= MOST_DOUBT))

@@ -119,6 +119,23 @@ fn a_mask_of_a_ball_tells_no_eye_beside_it() {
     );
 }
 
+/// A horizon looks the same from wherever an eye of some height looks along it.
+#[test]
+fn a_horizon_tells_no_eye() {
+    with_scene(&coarse_lecture(), [160, 120], Projection::Perspective, |view| {
+        let description = *view.camera.description();
+        for by in [[0.0, 0.0, -0.7], [0.3, -0.4, 0.0], [0.0, -0.3, 0.4]] {
+            let other =
+                CameraDescription { eye: description.eye + Vec3::from_array(by), ..description };
+            let found = named(view, &finding_of_mask(view, view.scene, other));
+            assert!(
+                found.as_ref().is_none_or(|(stance, _)| !stance.moved.is_of_eye()),
+                "{found:?}"
+            );
+        }
+    });
+}
+
 #[test]
 fn a_mask_of_another_shape_tells_no_eye() {
     with_scene(&teapot(0.6), [160, 120], Projection::Perspective, |view| {
