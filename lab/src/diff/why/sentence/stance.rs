@@ -32,18 +32,16 @@ pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&C
             )
         }
         Moved::Direction => {
-            let cause = match (has_target, stance.by_contour) {
-                (true, false) => ": is its look_at another?".into(),
-                (true, true) => format!(": is its look_at another, or {scene} moved?"),
-                (false, false) => String::new(),
-                (false, true) => format!(": is its direction of view another, or {scene} moved?"),
-            };
+            let cause = cause_of_direction(has_target, stance.by_contour, &scene);
             format!("{shows} what is seen along about {along}, not along {stated_along}{cause}")
         }
-        Moved::Axes => format!(
-            "{shows} what is seen along about {along}{up}, not along {stated_along}: are its u, v and w others, or {scene} \
-             turned?"
-        ),
+        Moved::Axes => {
+            let picture = if stance.by_contour { ", the picture moved" } else { "" };
+            format!(
+                "{shows} what is seen along about {along}{up}, not along {stated_along}: are its u, v and w \
+                 others{picture}, or {scene} turned?"
+            )
+        }
         Moved::Eye => format!(
             "{shows} what an eye at about {eye} sees in the same direction, not one at {stated_eye}: is its eye \
              another{field}, or {scene} moved or of another size?"
@@ -60,6 +58,17 @@ pub(super) fn of_stance(stance: &Stance, placement: Placement, camera: Option<&C
             "{shows} what an eye at about {eye} sees along about {along}{up}, not one at {stated_eye} along {stated_along}: \
              are its eye and its direction of view others, or {scene} moved or turned?"
         ),
+    }
+}
+
+/// What may be the cause that everything is seen in another direction, if anything is worth a word.
+fn cause_of_direction(has_target: bool, by_contour: bool, scene: &str) -> String {
+    let cause =
+        if has_target { "is its look_at another" } else { "is its direction of view another" };
+    match (has_target, by_contour) {
+        (_, true) => format!(": {cause}, or the picture or {scene} moved?"),
+        (true, false) => format!(": {cause}?"),
+        (false, false) => String::new(),
     }
 }
 
@@ -151,7 +160,11 @@ mod tests {
             "is its eye another, its field of view, or all of the scene turned or of another size?";
         assert!(said.ends_with(end), "{said}");
         let said = of_stance(&of_mask(Moved::Direction), Upright, Some(&camera));
-        assert!(said.ends_with(": is its look_at another, or all of the scene moved?"), "{said}");
+        let end = ": is its look_at another, or the picture or all of the scene moved?";
+        assert!(said.ends_with(end), "{said}");
+        let said = of_stance(&of_mask(Moved::Axes), Upright, Some(&camera));
+        let end = "are its u, v and w others, the picture moved, or all of the scene turned?";
+        assert!(said.ends_with(end), "{said}");
         assert_eq!(coordinates(DVec3::splat(1234.0), DVec3::ZERO)[0], "(1234, 1234, 1234)");
     }
 }
