@@ -44,7 +44,7 @@ fn teapot(scale: f32) -> LoadedScene {
 fn another_eye_is_named_from_a_mask() {
     with_scene(&teapot(0.6), [160, 120], Projection::Perspective, |view| {
         let description = *view.camera.description();
-        for by in [[0.4, 0.0, 0.0], [0.0, 0.5, 0.0], [0.5, -0.2, -1.0], [0.0, 0.0, 0.7]] {
+        for by in [[0.4, 0.0, 0.0], [0.5, -0.2, -1.0]] {
             let eye = description.eye + Vec3::from_array(by);
             let around = CameraDescription { eye, ..description };
             let found = named(view, &finding_of_mask(view, view.scene, around));
@@ -125,7 +125,7 @@ fn a_mask_of_a_ball_tells_no_eye_beside_it() {
 fn a_horizon_tells_no_eye() {
     with_scene(&coarse_lecture(), [160, 120], Projection::Perspective, |view| {
         let description = *view.camera.description();
-        for by in [[0.0, 0.0, -0.7], [0.3, -0.4, 0.0], [0.0, -0.3, 0.4]] {
+        for by in [[0.0, 0.0, -0.7], [0.3, -0.4, 0.0]] {
             let other =
                 CameraDescription { eye: description.eye + Vec3::from_array(by), ..description };
             let found = named(view, &finding_of_mask(view, view.scene, other));
