@@ -29,10 +29,8 @@ const LONGEST: f64 = 0.5;
 /// The step by which slopes are measured.
 const SMALL: f64 = 1e-5;
 
-/// A contour lies so far from where it should, in pixels, by what pixels round; neighbours round alike.
-const OFF: f64 = 1.0;
-
-/// A contour tells a stance if it tells each part of it to within this: a part of the depth, or an angle.
+/// A contour tells a stance if it tells each part of it to within this, a part of the depth or an angle, where all of its pieces are
+/// off by a pixel. By what pixels round, they are off by less, but neighbours alike.
 const MOST_DOUBT: f64 = 0.01;
 
 /// Where the last step was shorter than this, it tells of the next one.
@@ -173,7 +171,7 @@ impl Search<'_> {
         }
         let Some((rows, _)) = self.rows(stance, marks) else { return false };
         let doubts = NormalEquations::new(&rows, freedom).doubts();
-        doubts.is_some_and(|doubts| doubts.iter().all(|doubt| OFF * doubt <= MOST_DOUBT))
+        doubts.is_some_and(|doubts| doubts.iter().all(|doubt| *doubt <= MOST_DOUBT))
     }
 
     /// The step that brings what is seen to where the file has it.
