@@ -15,7 +15,17 @@ pub(super) struct Coverage {
 /// A place in a picture: columns to the right and rows down from its upper left corner.
 type Place = [f64; 2];
 
-/// The side between a covered pixel and one that is not, a piece of the contour.
+/// A side between two pixels, of which one is covered.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    /// Row and column of both.
+    covered: [usize; 2],
+    beside: [usize; 2],
+    /// The middle of the side.
+    place: Place,
+}
+
+/// The side between a covered pixel and one that is not, as a piece of the contour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
     /// The covered pixel: row and column.
@@ -39,7 +49,7 @@ const LEAST_STRAIGHT: f64 = 0.5;
 /// Pixels that are farther from the contour than so many times the middle one of them, and a pixel, tell nothing of it.
 const FAR: f64 = 3.0;
 
-/// Pieces that are shorter are as good as along the contour's direction, and count as so long.
+/// Sides that run nearly across the contour count as pieces of this length: none has length 0.
 const SHORTEST: f64 = 0.05;
 
 impl Coverage {
@@ -55,16 +65,16 @@ impl Coverage {
         self.covered[row * self.width + column]
     }
 
-    /// The sides between covered pixels and others: the covered pixel, the other one, and the middle of the side.
-    fn sides(&self) -> Vec<([usize; 2], [usize; 2], Place)> {
+    /// The sides between covered pixels and others.
+    fn sides(&self) -> Vec<Side> {
         let mut sides = Vec::new();
         #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
         let middle = |one: usize, other: usize| (one + other + 1) as f64 / 2.0;
         let mut pair = |one: [usize; 2], other: [usize; 2]| {
             let place = [middle(one[1], other[1]), middle(one[0], other[0])];
             match (self.is_covered(one), self.is_covered(other)) {
-                (true, false) => sides.push((one, other, place)),
-                (false, true) => sides.push((other, one, place)),
+                (true, false) => sides.push(Side { covered: one, beside: other, place }),
+                (false, true) => sides.push(Side { covered: other, beside: one, place }),
                 _ => {}
             }
         };
@@ -86,22 +96,23 @@ impl Coverage {
     pub(super) fn contour(&self, other: &Coverage) -> Vec<Piece> {
         let sides = self.sides();
         let areas = self.areas(&sides, other);
-        let pieces = sides.iter().zip(areas).filter_map(|(&(pixel, beside, place), area)| {
-            let across = self.across(pixel, place)?;
-            let is_upright = pixel[0] == beside[0];
-            let length = across[usize::from(!is_upright)].abs().max(SHORTEST);
-            Some(Piece { pixel, place, across, length, farther: area / length })
-        });
+        let pieces =
+            sides.iter().zip(areas).filter_map(|(&Side { covered, beside, place }, area)| {
+                let across = self.across(covered, place)?;
+                let is_upright = covered[0] == beside[0];
+                let length = across[usize::from(!is_upright)].abs().max(SHORTEST);
+                Some(Piece { pixel: covered, place, across, length, farther: area / length })
+            });
         pieces.collect()
     }
 
     /// For each side, the pixels that another mask covers beyond it, less those that it does not cover before it.
-    fn areas(&self, sides: &[([usize; 2], [usize; 2], Place)], other: &Coverage) -> Vec<f64> {
+    fn areas(&self, sides: &[Side], other: &Coverage) -> Vec<f64> {
         let nearest = self.nearest(sides);
         let differing = (0..self.covered.len()).filter_map(|index| {
             let side = nearest[index].filter(|_| self.covered[index] != other.covered[index])?;
             let ([x, y], [u, v]) =
-                (middle_of([index / self.width, index % self.width]), sides[side].2);
+                (middle_of([index / self.width, index % self.width]), sides[side].place);
             Some((side, other.covered[index], (x - u).hypot(y - v)))
         });
         let differing: Vec<(usize, bool, f64)> = differing.collect();
@@ -141,11 +152,11 @@ impl Coverage {
 
     /// For each pixel, which side is nearest, or nearly so: sides are handed on from pixel to pixel, down and to the right, then up
     /// and to the left (Per-Erik Danielsson, "Euclidean distance mapping", Computer Graphics and Image Processing, 1980).
-    fn nearest(&self, sides: &[([usize; 2], [usize; 2], Place)]) -> Vec<Option<usize>> {
+    fn nearest(&self, sides: &[Side]) -> Vec<Option<usize>> {
         let (width, height) = (self.width, self.height());
         let mut nearest: Vec<Option<usize>> = vec![None; self.covered.len()];
-        for (side, (one, other, _)) in sides.iter().enumerate() {
-            for [row, column] in [one, other] {
+        for (side, &Side { covered, beside, .. }) in sides.iter().enumerate() {
+            for [row, column] in [covered, beside] {
                 nearest[row * width + column] = Some(side);
             }
         }
@@ -155,7 +166,10 @@ impl Coverage {
                 return;
             }
             let [x, y] = middle_of(to);
-            let far = |side: usize| (sides[side].2[0] - x).hypot(sides[side].2[1] - y);
+            let far = |side: usize| {
+                let [u, v] = sides[side].place;
+                (u - x).hypot(v - y)
+            };
             let own = nearest[to[0] * width + to[1]];
             let from = nearest[row * width + column];
             if from.is_some_and(|from| own.is_none_or(|own| far(from) < far(own))) {
