@@ -5,6 +5,9 @@
 //! Stennett, "RAPID - a video rate object tracker", British Machine Vision Conference, 1990). That way is measured by area, which is
 //! finer than a pixel: the pixels that only one of both covers, each held against the nearest piece of our contour.
 
+use super::expected::Expected;
+use crate::common::frame::NO_PRIMITIVE;
+
 /// What is covered in a picture, row by row.
 #[derive(Clone, Debug)]
 pub(super) struct Coverage {
@@ -13,7 +16,7 @@ pub(super) struct Coverage {
 }
 
 /// A place in a picture: columns to the right and rows down from its upper left corner.
-type Place = [f64; 2];
+pub(super) type Place = [f64; 2];
 
 /// A side between two pixels, of which one is covered.
 #[derive(Clone, Copy, Debug)]
@@ -57,12 +60,43 @@ impl Coverage {
         Coverage { width, covered }
     }
 
+    /// What is covered in our picture.
+    pub(super) fn of(expected: &Expected) -> Coverage {
+        let [width, _] = expected.size();
+        let covered = expected.drawn.ids.iter().map(|id| *id != NO_PRIMITIVE);
+        Coverage::new(width, covered.collect())
+    }
+
     fn height(&self) -> usize {
         self.covered.len() / self.width
     }
 
     fn is_covered(&self, [row, column]: [usize; 2]) -> bool {
         self.covered[row * self.width + column]
+    }
+
+    /// Tells of each covered pixel: its place from the middle of the picture, and whether it lies at the border.
+    pub(super) fn each_covered(&self, mut tell: impl FnMut(Place, bool)) {
+        let (width, height) = (self.width, self.height());
+        for index in (0..self.covered.len()).filter(|&index| self.covered[index]) {
+            let [row, column] = [index / width, index % width];
+            let is_at_border =
+                [row, column].contains(&0) || row + 1 == height || column + 1 == width;
+            tell(self.from_middle(middle_of([row, column])), is_at_border);
+        }
+    }
+
+    /// The number of columns.
+    #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
+    pub(super) fn width(&self) -> f64 {
+        self.width as f64
+    }
+
+    /// A place, from the middle of the picture.
+    pub(super) fn from_middle(&self, place: Place) -> Place {
+        #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
+        let middle = [self.width, self.height()].map(|side| side as f64 / 2.0);
+        [0, 1].map(|axis| place[axis] - middle[axis])
     }
 
     /// The sides between covered pixels and others.

@@ -1,8 +1,10 @@
 //! The framing that takes a picture to the one that a file shows, by the places of its primitives in both.
 //!
 //! Where a picture is stretched and moved, every primitive keeps what hides it: the middle of its pixels is stretched and
-//! moved alike. A line through all of these middles, by least squares, is the framing, but for what pixels round.
+//! moved alike. A line through all of these middles, by least squares, is the framing, but for what pixels round. So it is with
+//! all that a mask covers, if it lies wholly in both.
 
+use super::contour::Coverage;
 use super::convention::{Framing, Placement};
 use super::encoding::{Encoding, IdEncoding};
 use super::expected::Expected;
@@ -123,8 +125,24 @@ pub(super) fn framing_of_file(
     }
     let [x, y] = [0, 1].map(|axis| line(&pairs, axis));
     let ([x, right, of_x], [y, down, of_y]) = (x?, y?);
-    let framing = Framing { scale: [x, y], shift: [right, down], is_alone: false };
+    let framing = Framing { scale: [x, y], shift: [right, down], ..Framing::default() };
     Some(Fit { framing, correlation: of_x.min(of_y) })
+}
+
+/// The framing under which what one mask covers is what another one does: by the middles of both and how far they spread. `None`
+/// where a part of one may lie beside the picture, and it tells neither.
+pub(super) fn framing_of_mask(ours: &Coverage, theirs: &Coverage) -> Option<Framing> {
+    let spots = [ours, theirs].map(|coverage| {
+        let mut spot = Spot::default();
+        coverage.each_covered(|place, is_at_border| spot.add(place, is_at_border));
+        spot
+    });
+    if spots.iter().any(|spot| spot.is_cut || spot.pixels == 0.0) {
+        return None;
+    }
+    let [x, y] = [0, 1].map(|axis| line(&[spots], axis));
+    let ([x, right, _], [y, down, _]) = (x?, y?);
+    Some(Framing { scale: [x, y], shift: [right, down], ..Framing::default() })
 }
 
 /// The scale, the shift and the correlation along one axis, where the places in both pictures lie on a line, but for what
@@ -170,5 +188,25 @@ mod tests {
         assert_eq!(line(&flat, 0), None);
         let mirrored = [-3.0, 0.5, 7.0].map(|at: f64| [spot(at, 1.0), spot(-at, 1.0)]);
         assert_eq!(line(&mirrored, 0), None);
+    }
+
+    #[test]
+    fn a_mask_that_is_stretched_and_moved_tells_both() {
+        let ellipse = |[x, y]: [f64; 2], [a, b]: [f64; 2]| {
+            let covered = (0..200 * 100_u32).map(|at| {
+                let (column, row) = (f64::from(at % 200) + 0.5, f64::from(at / 200) + 0.5);
+                ((column - 100.0 - x) / a).powi(2) + ((row - 50.0 - y) / b).powi(2) < 1.0
+            });
+            Coverage::new(200, covered.collect())
+        };
+        let ours = ellipse([10.0, -5.0], [40.0, 30.0]);
+        let theirs = ellipse([10.0 * 1.2 - 7.0, -5.0 * 0.9 + 3.5], [40.0 * 1.2, 30.0 * 0.9]);
+        let Framing { scale, shift, .. } = framing_of_mask(&ours, &theirs).unwrap();
+        for (measured, by) in scale.iter().chain(&shift).zip([1.2, 0.9, -7.0, 3.5]) {
+            assert!((measured - by).abs() < 0.05, "{scale:?} {shift:?}");
+        }
+        // A part of it lies beside the picture, or it covers nothing.
+        assert_eq!(framing_of_mask(&ours, &ellipse([70.0, 0.0], [40.0, 30.0])), None);
+        assert_eq!(framing_of_mask(&ours, &ellipse([0.0, 0.0], [0.1, 0.1])), None);
     }
 }

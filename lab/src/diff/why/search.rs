@@ -396,7 +396,11 @@ impl Search<'_> {
                 starts.push(self.drawn_whole(ours));
             }
         }
-        starts.extend(framed.filter(|one| 2 * one.score.differing < differing));
+        // The contour of a mask that is framed and has another mistake, too, is that of many things.
+        let is_start = |one: &Candidate| {
+            !one.convention.framing.by_contour && 2 * one.score.differing < differing
+        };
+        starts.extend(framed.filter(is_start));
         for start in starts {
             self.add_changes(start, &changes, differing, &mut all);
         }
@@ -407,8 +411,11 @@ impl Search<'_> {
         if possible(&all).is_none_or(|best| best.score.differing * 2 > differing) {
             all.extend(self.tie_rules(placed, &changes));
         }
-        // What explains all but a few pixels says more than where the eye is.
-        if possible(&all).is_none_or(|best| best.score.differing * FEW > differing) {
+        // What explains all but a few pixels says more than where the eye is; but not a contour of another size or place.
+        let is_explained = possible(&all).is_some_and(|best| {
+            best.score.differing * FEW <= differing && !best.convention.framing.by_contour
+        });
+        if !is_explained {
             all.extend(self.posed());
         }
         let best = possible(&all);

@@ -11,11 +11,13 @@ pub struct Framing {
     pub shift: [f64; 2],
     /// Whether nothing is seen around it, where the scene goes on.
     pub is_alone: bool,
+    /// Whether the contour of a mask alone tells it: a scene of another size or in another place may have the same.
+    pub by_contour: bool,
 }
 
 impl Default for Framing {
     fn default() -> Self {
-        Framing { scale: [1.0; 2], shift: [0.0; 2], is_alone: false }
+        Framing { scale: [1.0; 2], shift: [0.0; 2], is_alone: false, by_contour: false }
     }
 }
 
@@ -24,7 +26,12 @@ impl Framing {
     pub(in crate::diff::why) fn then(self, next: Framing) -> Framing {
         let scale = [0, 1].map(|axis| self.scale[axis] * next.scale[axis]);
         let shift = [0, 1].map(|axis| self.shift[axis] * next.scale[axis] + next.shift[axis]);
-        Framing { scale, shift, is_alone: self.is_alone || next.is_alone }
+        Framing {
+            scale,
+            shift,
+            is_alone: self.is_alone || next.is_alone,
+            by_contour: self.by_contour || next.by_contour,
+        }
     }
 
     /// The same with a simple scale, where one is near: 1, or one for both sides.
@@ -68,10 +75,11 @@ mod tests {
 
     #[test]
     fn two_framings_are_one() {
-        let first = Framing { scale: [2.0, 1.0], shift: [3.0, -1.0], is_alone: true };
-        let second = Framing { scale: [0.5, 4.0], shift: [1.0, 2.0], is_alone: false };
+        let first =
+            Framing { scale: [2.0, 1.0], shift: [3.0, -1.0], is_alone: true, by_contour: false };
+        let second = Framing { scale: [0.5, 4.0], shift: [1.0, 2.0], ..Framing::default() };
         let both = first.then(second);
-        assert_eq!(both, Framing { scale: [1.0, 4.0], shift: [2.5, -2.0], is_alone: true });
+        assert_eq!(both, Framing { scale: [1.0, 4.0], shift: [2.5, -2.0], ..first });
         for axis in 0..2 {
             let in_two = first.source(axis, second.source(axis, 7.0));
             assert_eq!(both.source(axis, 7.0), in_two);
@@ -80,7 +88,7 @@ mod tests {
 
     #[test]
     fn numbers_near_simple_ones_are_simple() {
-        let framing = |scale, shift| Framing { scale, shift, is_alone: false };
+        let framing = |scale, shift| Framing { scale, shift, ..Framing::default() };
         let measured = framing([1.1502, 1.1499], [4.98, -2.51]);
         let [x, y] = measured.with_simple_scale().scale;
         assert!(x == y && (x - 1.15005).abs() < 1e-9);
@@ -92,7 +100,7 @@ mod tests {
 
     #[test]
     fn lines_beside_the_picture_are_not_its_own() {
-        let framing = Framing { scale: [0.5, 1.0], shift: [-2.0, 3.0], is_alone: true };
+        let framing = Framing { scale: [0.5, 1.0], shift: [-2.0, 3.0], ..Framing::default() };
         assert_eq!([framing.own_lines(0, 8), framing.own_lines(1, 8)], [0..4, 3..8]);
         let beside = Framing { shift: [0.0, 90.0], ..framing };
         assert!(beside.own_lines(1, 8).is_empty());

@@ -1,22 +1,49 @@
 //! The search for the size and the place of a whole picture.
 
 use super::super::candidate::{Candidate, as_good};
+use super::super::contour::Coverage;
 use super::super::convention::{Change, Convention, Framing};
 use super::super::encoding::{Encoding, IdEncoding};
 use super::super::expected::Expected;
-use super::super::fit::{Fit, framing_of_file};
-use super::Search;
+use super::super::fit::{Fit, framing_of_file, framing_of_mask};
+use super::super::observed::Values;
+use super::least_squares::{NormalEquations, Row};
+use super::{FEW, Search};
 
 /// So often a framing is measured: each time, pixels round less.
 const MOST_FITS: usize = 6;
+
+/// So often the contour of a mask is moved, and so often in a row for nothing.
+const MOST_STEPS: usize = 12;
+const MOST_WORSE: usize = 4;
+
+/// A mask that differs in fewer pixels tells no four numbers.
+const FEWEST_OF_MASK: u64 = 100;
+
+/// At once, a contour is moved by at most this part of the picture's size.
+const LONGEST: f64 = 0.5;
 
 /// In so many placements it is measured: ids tell most of the wrong ones.
 const MOST_PLACEMENTS: usize = 2;
 
 impl Search<'_> {
-    /// Our conventions with the size and the place of the picture that the file shows: with more of the scene around it, unless
-    /// with nothing around it it explains more.
+    /// Our conventions with the size and the place of the picture that the file shows, if it is one of ids or a mask.
     pub(super) fn framed(&self) -> Option<Candidate> {
+        match self.observed.values {
+            Values::Ids(_) => self.framed_by_primitives(),
+            Values::Mask(_) if self.ours.differing >= FEWEST_OF_MASK => {
+                let starts = self.starts_from_elsewhere().into_iter();
+                let found = starts.flat_map(|start| {
+                    [false, true].map(|is_alone| self.framed_by_contour(&start, is_alone))
+                });
+                found.flatten().min_by_key(Candidate::rank)
+            }
+            Values::Mask(_) | Values::Distances(_) => None,
+        }
+    }
+
+    /// With more of the scene around it, unless with nothing around it it explains more.
+    fn framed_by_primitives(&self) -> Option<Candidate> {
         let mut placed = self.placed(Convention::default(), self.truth);
         placed.sort_by_key(Candidate::rank);
         let told = placed.iter().filter(|one| self.fit(one).is_some());
@@ -27,7 +54,7 @@ impl Search<'_> {
     }
 
     fn framed_so(&self, candidate: &Candidate, is_alone: bool) -> Option<Candidate> {
-        let Candidate { convention, score, .. } = *candidate;
+        let convention = candidate.convention;
         let with = |framing: Framing| {
             let change = Change::Framing(Framing { is_alone, ..framing });
             self.drawn_whole(convention.with(change))
@@ -41,16 +68,53 @@ impl Search<'_> {
             }
             best = fitted;
         }
-        if !best.convention.is_framed() {
-            return None;
+        better(candidate, with_simple_numbers(best, candidate, with))
+    }
+
+    /// A mask whose contour lies where the file has it, if it tells enough, with as few numbers as do as well.
+    fn framed_by_contour(&self, start: &Candidate, is_alone: bool) -> Option<Candidate> {
+        let framing = Framing { is_alone, by_contour: true, ..Framing::default() };
+        let all = self.fitted(start, framing, Stretch::All);
+        let differing = start.score.differing;
+        if all.score.differing * FEW > differing {
+            return better(start, all);
         }
-        for simple in [Framing::with_simple_scale, Framing::with_simple_shift] {
-            let other = with(simple(best.convention.framing));
-            if as_good(other.score.differing, best.score.differing, score.differing) {
-                best = other;
+        let simpler = Stretch::SIMPLER
+            .map(|stretch| self.fitted(start, stretch.simplified(all.convention.framing), stretch));
+        let fewest = simpler.iter().chain([&all]).map(|one| one.score.differing).min()?;
+        let mut good = simpler
+            .into_iter()
+            .chain([all])
+            .filter(|one| as_good(one.score.differing, fewest, differing));
+        better(start, good.next()?)
+    }
+
+    /// The start with a framing, moved in these ways until the contour lies where the file has it.
+    fn fitted(&self, start: &Candidate, mut framing: Framing, stretch: Stretch) -> Candidate {
+        let Candidate { convention, encoding, .. } = *start;
+        let theirs = self.coverage(convention.placement, encoding.nothing);
+        let read = |framing: Framing| {
+            let next = convention.with(Change::Framing(framing));
+            let drawn = self.whole(&next);
+            let expected = Expected::new(self.view, &next, &drawn);
+            let ours = Coverage::of(&expected);
+            (self.read(next, &expected, encoding.nothing), ours)
+        };
+        let (mut best, mut worse) = (*start, 0);
+        for _ in 0..MOST_STEPS {
+            let (fitted, ours) = read(framing);
+            if fitted.score.differing < best.score.differing {
+                (best, worse) = (fitted, 0);
+            } else {
+                worse += 1;
             }
+            if best.score.differing == 0 || worse == MOST_WORSE {
+                break;
+            }
+            let Some(step) = stretch.step(&ours, &theirs) else { break };
+            framing = framing.then(step);
         }
-        Some(best).filter(|best| best.convention.is_framed())
+        with_simple_numbers(best, start, |framing| read(framing).0)
     }
 
     /// The framing that primitives tell best. In a picture of another size, numbers say nothing yet about how they count.
@@ -64,5 +128,98 @@ impl Search<'_> {
         });
         let best = fits.max_by(|one, other| one.correlation.total_cmp(&other.correlation));
         best.map(|Fit { framing, .. }| framing)
+    }
+}
+
+/// The candidate with simple numbers in its framing, where these do as well.
+fn with_simple_numbers(
+    mut best: Candidate,
+    start: &Candidate,
+    with: impl Fn(Framing) -> Candidate,
+) -> Candidate {
+    for simple in [Framing::with_simple_scale, Framing::with_simple_shift] {
+        let other = with(simple(best.convention.framing));
+        if as_good(other.score.differing, best.score.differing, start.score.differing) {
+            best = other;
+        }
+    }
+    best
+}
+
+/// A framed candidate, if it does better than what it began with.
+fn better(start: &Candidate, framed: Candidate) -> Option<Candidate> {
+    let is_framed = framed.convention.is_framed();
+    (is_framed && framed.score.differing < start.score.differing).then_some(framed)
+}
+
+/// What of the size and the place of a mask is another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stretch {
+    /// The size: all is as many times as wide as it is high.
+    Size,
+    /// The place.
+    Place,
+    /// Width and height.
+    Sides,
+    /// The size, and the place.
+    SizeAndPlace,
+    /// Width, height and place.
+    All,
+}
+
+impl Stretch {
+    /// All but [`Stretch::All`]; the first have the fewest numbers.
+    const SIMPLER: [Stretch; 4] =
+        [Stretch::Size, Stretch::Place, Stretch::Sides, Stretch::SizeAndPlace];
+
+    /// The framing that is nearest to one.
+    fn simplified(self, framing: Framing) -> Framing {
+        let [x, y] = framing.scale;
+        let scale = match self {
+            Stretch::Place => [1.0; 2],
+            Stretch::Size | Stretch::SizeAndPlace => [f64::midpoint(x, y); 2],
+            Stretch::Sides | Stretch::All => [x, y],
+        };
+        let shift = match self {
+            Stretch::Size | Stretch::Sides => [0.0; 2],
+            Stretch::Place | Stretch::SizeAndPlace | Stretch::All => framing.shift,
+        };
+        Framing { scale, shift, ..framing }
+    }
+
+    /// The framing that takes what is covered in our picture to what another mask covers, nearly, if they tell all of it.
+    fn step(self, ours: &Coverage, theirs: &Coverage) -> Option<Framing> {
+        let whole = if self == Stretch::All { framing_of_mask(ours, theirs) } else { None };
+        whole.or_else(|| self.step_of_contour(ours, theirs))
+    }
+
+    fn step_of_contour(self, ours: &Coverage, theirs: &Coverage) -> Option<Framing> {
+        let width = ours.width();
+        let of_place = [[width, 0.0], [0.0, width]];
+        let rows = ours.contour(theirs).into_iter().map(|piece| {
+            let [x, y] = ours.from_middle(piece.place);
+            let slopes = match self {
+                Stretch::Size => vec![[x, y]],
+                Stretch::Place => of_place.to_vec(),
+                Stretch::Sides => vec![[x, 0.0], [0.0, y]],
+                Stretch::SizeAndPlace => [&[[x, y]][..], &of_place].concat(),
+                Stretch::All => [&[[x, 0.0], [0.0, y]], &of_place[..]].concat(),
+            };
+            let offset = piece.across.map(|part| piece.farther * part);
+            Row { slopes, offset, weight: piece.length }.along(piece.across)
+        });
+        let rows: Vec<Row> = rows.collect();
+        let freedom = rows.first()?.slopes.len();
+        let equations = NormalEquations::new(&rows, freedom);
+        let by = equations.solution().filter(|_| equations.tell_all_ways())?;
+        let by: Vec<f64> = by.into_iter().map(|by| by.clamp(-LONGEST, LONGEST)).collect();
+        let (scale, shift) = match (self, &by[..]) {
+            (Stretch::Place, shift) => ([0.0; 2], shift),
+            (Stretch::Size | Stretch::SizeAndPlace, [both, shift @ ..]) => ([*both; 2], shift),
+            (_, [x, y, shift @ ..]) => ([*x, *y], shift),
+            _ => return None,
+        };
+        let shift = [0, 1].map(|axis| width * shift.get(axis).copied().unwrap_or(0.0));
+        Some(Framing { scale: scale.map(|by| 1.0 + by), shift, ..Framing::default() })
     }
 }

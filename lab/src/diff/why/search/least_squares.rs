@@ -1,5 +1,9 @@
 //! Least squares, by their normal equations.
 
+/// A contour tells a way in which a picture is moved if it tells it to within this, a part of the depth, of the picture's size, or an
+/// angle, where all of its pieces are off by a pixel. By what pixels round, they are off by less, but neighbours alike.
+const MOST_DOUBT: f64 = 0.01;
+
 /// How the place of something moves.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
@@ -60,8 +64,13 @@ impl NormalEquations {
         self.solved(&self.right)
     }
 
+    /// Whether they tell each way to within [`MOST_DOUBT`].
+    pub(super) fn tell_all_ways(&self) -> bool {
+        self.doubts().is_some_and(|doubts| doubts.iter().all(|doubt| *doubt <= MOST_DOUBT))
+    }
+
     /// How far off each way is in the mean where each row of weight 1 is off by a pixel, and none as its neighbours are.
-    pub(super) fn doubts(&self) -> Option<Vec<f64>> {
+    fn doubts(&self) -> Option<Vec<f64>> {
         let freedom = self.right.len();
         let doubts = (0..freedom).map(|way| {
             let mut unit = vec![0.0; freedom];
@@ -136,5 +145,7 @@ mod tests {
         let doubts = |count| NormalEquations::new(&vec![one.clone(); count], 2).doubts().unwrap();
         assert!(is_near(doubts(1)[0], 0.1) && is_near(doubts(4)[0], 0.05));
         assert!(doubts(4)[1] > 100.0, "{:?}", doubts(4));
+        let tell = |slope: f64| NormalEquations::new(&[row(&[[slope, 0.0]], [0.0; 2], 1.0)], 1);
+        assert!(tell(101.0).tell_all_ways() && !tell(99.0).tell_all_ways());
     }
 }

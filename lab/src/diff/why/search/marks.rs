@@ -1,14 +1,13 @@
 //! Points of the scene, and where a file has them.
 
 use super::super::contour::Coverage;
-use super::super::convention::{Placement, Stance};
+use super::super::convention::{Convention, Placement, Stance};
 use super::super::encoding::{Encoding, NothingEncoding};
 use super::super::expected::Expected;
 use super::super::fit::seen_in_both;
 use super::super::observed::Values;
 use super::Search;
 use crate::common::Primitive;
-use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::DVec3;
 
 /// For each way in which a stance is free, so many marks must be seen: each primitive tells two numbers, a piece of a contour one,
@@ -59,17 +58,20 @@ impl Search<'_> {
     ) -> Option<Landmarks> {
         match &self.observed.values {
             Values::Ids(_) => Some(Landmarks::Middles),
-            Values::Mask(_) => {
-                let expected = Expected::new(self.view, &Default::default(), self.truth);
-                let mut covered = vec![false; self.truth.ids.len()];
-                expected.each_pixel(placement, |pixel, index, _| {
-                    covered[pixel] = self.observed.covered(index, nothing);
-                });
-                let [width, _] = expected.size();
-                Some(Landmarks::Contour(Coverage::new(width, covered)))
-            }
+            Values::Mask(_) => Some(Landmarks::Contour(self.coverage(placement, nothing))),
             Values::Distances(_) => None,
         }
+    }
+
+    /// What the file covers, as our picture lies.
+    pub(super) fn coverage(&self, placement: Placement, nothing: NothingEncoding) -> Coverage {
+        let expected = Expected::new(self.view, &Convention::default(), self.truth);
+        let mut covered = vec![false; self.truth.ids.len()];
+        expected.each_pixel(placement, |pixel, index, _| {
+            covered[pixel] = self.observed.covered(index, nothing);
+        });
+        let [width, _] = expected.size();
+        Coverage::new(width, covered)
     }
 
     /// The marks that our picture and the file have in common.
@@ -92,15 +94,12 @@ impl Search<'_> {
             }
             Landmarks::Contour(theirs) => theirs,
         };
-        let [width, height] = expected.size();
+        let [width, _] = expected.size();
         let ids = &expected.drawn.ids;
-        let covered = ids.iter().map(|id| *id != NO_PRIMITIVE).collect();
-        #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
-        let middle = [width, height].map(|side| side as f64 / 2.0);
-        let pieces = Coverage::new(width, covered).contour(theirs);
-        let marks = pieces.iter().map(|piece| {
+        let ours = Coverage::of(expected);
+        let marks = ours.contour(theirs).into_iter().map(|piece| {
             let pixel = piece.pixel[0] * width + piece.pixel[1];
-            let [x, y] = [0, 1].map(|axis| piece.place[axis] - middle[axis]);
+            let [x, y] = ours.from_middle(piece.place);
             // The contour of a plane is its horizon, which no step of the eye brings nearer.
             let far = if self.center(ids[pixel]).is_some() { 1.0 } else { HORIZON };
             let depth = far * expected.depth(pixel);

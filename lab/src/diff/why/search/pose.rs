@@ -29,10 +29,6 @@ const LONGEST: f64 = 0.5;
 /// The step by which slopes are measured.
 const SMALL: f64 = 1e-5;
 
-/// A contour tells a stance if it tells each part of it to within this, a part of the depth or an angle, where all of its pieces are
-/// off by a pixel. By what pixels round, they are off by less, but neighbours alike.
-const MOST_DOUBT: f64 = 0.01;
-
 /// Where the last step was shorter than this, it tells of the next one.
 const NEAR: f64 = 0.05;
 
@@ -43,7 +39,7 @@ impl Search<'_> {
         let few =
             |found: &[Candidate]| found.iter().any(|one| FEW * one.score.differing <= by_ours);
         let mut found = Vec::new();
-        for start in self.starts_of_pose() {
+        for start in self.starts_from_elsewhere() {
             let sought = |moved: &[Moved]| -> Vec<Candidate> {
                 moved.par_iter().filter_map(|&moved| self.posed_so(&start, moved)).collect()
             };
@@ -67,7 +63,7 @@ impl Search<'_> {
     }
 
     /// Our conventions, upright and in the placement that fits best, with each numbering that the file may have.
-    fn starts_of_pose(&self) -> Vec<Candidate> {
+    pub(super) fn starts_from_elsewhere(&self) -> Vec<Candidate> {
         let mut placed = self.placed(Convention::default(), self.truth);
         placed.sort_by_key(|one| (one.convention.placement != Placement::Upright, one.rank()));
         placed.truncate(MOST_PLACEMENTS);
@@ -170,8 +166,7 @@ impl Search<'_> {
             return false;
         }
         let Some((rows, _)) = self.rows(stance, marks) else { return false };
-        let doubts = NormalEquations::new(&rows, freedom).doubts();
-        doubts.is_some_and(|doubts| doubts.iter().all(|doubt| *doubt <= MOST_DOUBT))
+        NormalEquations::new(&rows, freedom).tell_all_ways()
     }
 
     /// The step that brings what is seen to where the file has it.

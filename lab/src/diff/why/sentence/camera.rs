@@ -117,7 +117,7 @@ pub(super) fn of_framing(
     placement: Placement,
     camera: Option<&Camera>,
 ) -> String {
-    let Framing { scale: [x, y], shift, is_alone } = framing;
+    let Framing { scale: [x, y], shift, is_alone, by_contour } = framing;
     let [wide, high] = [x, y].map(three_digits);
     let size = match (wide == high, wide == "1", high == "1") {
         (true, true, _) => None,
@@ -136,8 +136,11 @@ pub(super) fn of_framing(
     let beside = if is_alone { ", and nothing around it" } else { "" };
     let cause = camera.and_then(|camera| match (size.is_some(), moved.is_some()) {
         (true, _) if is_alone => cause_of_part([x, y], camera),
-        (true, false) => Some(causes_of_size([x, y], camera)),
-        (false, true) if !is_alone => Some(cause_of_shift(camera)),
+        (true, false) => Some(causes_of_size([x, y], by_contour, camera)),
+        (false, true) if !is_alone => Some(causes_of_shift(by_contour, camera)),
+        (true, true) if by_contour => {
+            Some(": is its eye another, or all of the scene moved and of another size?".into())
+        }
         _ => None,
     });
     let all = if is_alone { "the picture" } else { "everything" };
@@ -153,12 +156,18 @@ fn cause_of_part([x, y]: [f64; 2], camera: &Camera) -> Option<String> {
     (x <= 1.0 && y <= 1.0).then_some(question)
 }
 
-fn cause_of_shift(camera: &Camera) -> String {
-    let eye = match camera.projection() {
-        Projection::Perspective => "",
-        Projection::Parallel => "is its eye another, or ",
-    };
-    format!(": {eye}is the middle of its viewport not on the axis of its camera?")
+fn causes_of_shift(by_contour: bool, camera: &Camera) -> String {
+    let axis = "is the middle of its viewport not on the axis of its camera";
+    match (camera.projection(), by_contour) {
+        (Projection::Perspective, false) => format!(": {axis}?"),
+        (Projection::Perspective, true) => {
+            format!(": {axis}, its direction of view another, or all of the scene moved?")
+        }
+        (Projection::Parallel, false) => format!(": is its eye another, or {axis}?"),
+        (Projection::Parallel, true) => {
+            format!(": is its eye another, {axis}, or is all of the scene moved?")
+        }
+    }
 }
 
 fn of_shift([right, down]: [f64; 2]) -> Option<String> {
@@ -175,29 +184,27 @@ fn of_shift([right, down]: [f64; 2]) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join(" and "))
 }
 
-/// The viewport, the distance and the field of view that would show everything so large.
-fn causes_of_size([x, y]: [f64; 2], camera: &Camera) -> String {
+/// The viewport, the distance, the field of view and the eye that would show everything so large, and the scene, where a contour alone
+/// tells the size.
+fn causes_of_size([x, y]: [f64; 2], by_contour: bool, camera: &Camera) -> String {
     let [vw, vh] = camera.viewport();
     let sides = |[vw, vh]: [f64; 2]| format!("{} x {}", three_digits(vw), three_digits(vh));
-    let viewport = format!("its viewport {}, not {}", sides([vw / x, vh / y]), sides([vw, vh]));
-    if camera.projection() == Projection::Parallel {
-        return format!(": is {viewport}?");
-    }
-    let angle = |vh: f64| three_digits(2.0 * (vh / 2.0 / camera.distance()).atan().to_degrees());
-    let angles = (x == y).then(|| {
-        format!("its field of view {} degrees high, not {}, or ", angle(vh / y), angle(vh))
-    });
-    let distance = (x == y).then(|| {
+    let mut causes =
+        vec![format!("its viewport {}, not {}", sides([vw / x, vh / y]), sides([vw, vh]))];
+    if x == y && camera.projection() == Projection::Perspective {
         let d = camera.distance();
-        format!(", or its d {}, not {}", three_digits(d * x), three_digits(d))
-    });
-    // Where all lies at one distance, this is the same picture.
-    let eye = (x == y).then(|| {
-        let place = if x > 1.0 { "nearer" } else { "farther away" };
-        format!(", or its eye {place}")
-    });
-    let [angles, distance, eye] = [angles, distance, eye].map(Option::unwrap_or_default);
-    format!(": is {angles}{viewport}{distance}{eye}?")
+        let angle = |vh: f64| three_digits(2.0 * (vh / 2.0 / d).atan().to_degrees());
+        let angles = format!("its field of view {} degrees high, not {}", angle(vh / y), angle(vh));
+        causes.insert(0, angles);
+        causes.push(format!("its d {}, not {}", three_digits(d * x), three_digits(d)));
+        // Where all lies at one distance, this is the same picture.
+        causes.push(format!("its eye {}", if x > 1.0 { "nearer" } else { "farther away" }));
+    }
+    if by_contour {
+        let other = if x == y { "size" } else { "shape" };
+        causes.push(format!("all of the scene of another {other}"));
+    }
+    format!(": is {}?", causes.join(", or "))
 }
 
 #[cfg(test)]
@@ -208,8 +215,9 @@ mod tests {
     #[test]
     fn a_framing_is_told_with_what_may_be_the_cause() {
         let camera = Camera::canonical(12, 16);
+        let of = |framing, placement| of_framing(framing, placement, Some(&camera));
         let said = |scale, shift, is_alone, placement| {
-            of_framing(Framing { scale, shift, is_alone }, placement, Some(&camera))
+            of(Framing { scale, shift, is_alone, by_contour: false }, placement)
         };
         use Placement::{Upright, UpsideDown};
         assert_eq!(
@@ -234,6 +242,23 @@ mod tests {
         assert_eq!(
             said([0.9998, 1.0], [2.0, 0.02], false, Upright),
             "shows everything 2 pixels too far to the right: is the middle of its viewport not on the axis of its camera?"
+        );
+        let of_mask =
+            |scale, shift| of(Framing { scale, shift, is_alone: false, by_contour: true }, Upright);
+        assert_eq!(
+            of_mask([0.8, 0.8], [0.0, 0.0]),
+            "shows everything 0.8 times as large: is its field of view 64 degrees high, not 53.1, or its viewport \
+             1.25 x 1.25, not 1 x 1, or its d 0.8, not 1, or its eye farther away, or all of the scene of another size?"
+        );
+        assert_eq!(
+            of_mask([1.0, 1.0], [0.0, 3.0]),
+            "shows everything 3 pixels too far down: is the middle of its viewport not on the axis of its camera, its \
+             direction of view another, or all of the scene moved?"
+        );
+        assert_eq!(
+            of_mask([0.8, 0.8], [3.0, 0.0]),
+            "shows everything 0.8 times as large, and 3 pixels too far to the right: is its eye another, or all of the \
+             scene moved and of another size?"
         );
     }
 

@@ -50,7 +50,7 @@ fn a_picture_of_half_its_size_in_a_corner_is_named() {
     with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
         let truth = true_ids(view);
         let found = finding(view, |[i, j]| truth([2 * i, 2 * j]));
-        let Framing { scale, shift, is_alone } = only(&found).convention.framing;
+        let Framing { scale, shift, is_alone, .. } = only(&found).convention.framing;
         assert!(is_alone && scale.iter().all(|scale| (scale - 0.5).abs() < 0.005), "{scale:?}");
         // The sample of each fourth pixel is a quarter of a pixel from the middle of the four.
         let expected = [-32.75, -21.75];
@@ -71,7 +71,7 @@ fn another_size_of_everything_is_named() {
         for factor in [0.6, 0.9, 1.07_f32] {
             let distance = description.distance * factor;
             let found = finding_of_camera(view, CameraDescription { distance, ..description });
-            let Framing { scale, shift, is_alone } = only(&found).convention.framing;
+            let Framing { scale, shift, is_alone, .. } = only(&found).convention.framing;
             assert!(
                 scale[0] == scale[1] && (scale[0] - f64::from(factor)).abs() < 2e-3,
                 "{scale:?}"
@@ -115,7 +115,7 @@ fn parallel_rays_from_another_eye_are_told_as_a_shift_alone() {
         let orientation = Orientation::LookAt { target: target + by, up };
         let moved = CameraDescription { eye: description.eye + by, orientation, ..description };
         let found = finding_of_camera(view, moved);
-        let Framing { scale, shift, is_alone } = only(&found).convention.framing;
+        let Framing { scale, shift, is_alone, .. } = only(&found).convention.framing;
         assert_eq!((scale, is_alone), ([1.0; 2], false));
         assert!(shift[0] < -1.0 && shift[1] > 0.5, "{shift:?}");
     });

@@ -1,5 +1,6 @@
 //! Masks from another eye, or in another direction: their contours alone tell it.
 
+use super::framing::true_ids;
 use super::*;
 use crate::common::Orientation;
 use crate::common::glam::{DVec3, Vec3};
@@ -92,6 +93,48 @@ fn an_object_of_another_size_may_be_the_cause_of_a_mask() {
             "is its eye another, its field of view, or all of the scene moved or of another size?";
         assert!(said.ends_with(end), "{said}");
     });
+}
+
+/// The framing that is named first, with its sentence, and how many pixels it leaves.
+fn framed(view: &View, finding: &Finding) -> (Framing, String, u64) {
+    let Finding::Explained(found) = finding else { panic!("{finding:?}") };
+    let Explanation { convention, remaining, .. } = found[0];
+    (convention.framing, found[0].sentences("A", view.camera).join(" / "), remaining)
+}
+
+/// With a teapot that lies wholly in the picture, and with one that is cut.
+#[test]
+fn another_size_and_another_place_are_named_from_a_mask() {
+    for (size, projection) in [
+        (0.6, Projection::Perspective),
+        (0.6, Projection::Parallel),
+        (0.9, Projection::Perspective),
+    ] {
+        with_scene(&teapot(size), [160, 120], projection, |view| {
+            let description = *view.camera.description();
+            let with = |viewport: [f32; 2]| {
+                let other = CameraDescription { viewport, ..description };
+                framed(view, &finding_of_mask(view, view.scene, other))
+            };
+            let [vw, vh] = description.viewport;
+            for factor in [0.8, 0.93, 1.3] {
+                let (Framing { scale: [x, y], shift, .. }, said, left) =
+                    with([vw * factor, vh * factor]);
+                assert!(x == y && (x * f64::from(factor) - 1.0).abs() < 0.01, "{factor} {said}");
+                assert!(shift == [0.0; 2] && left < 30, "{factor} {left} {said}");
+                assert!(said.ends_with(", or all of the scene of another size?"), "{said}");
+            }
+            let (Framing { scale: [x, y], .. }, said, _) = with([vw * 1.1, vh]);
+            assert!((1.1 * x - 1.0).abs() < 0.01 && y == 1.0, "{said}");
+            let truth = true_ids(view);
+            let mask = (0..120).flat_map(|i| (0..160).map(move |j| [i, j]));
+            let mask: Vec<bool> = mask.map(|[i, j]| truth([i + 5, j - 9]).is_some()).collect();
+            let file = Buffer::new([160, 120], 1, Content::Mask(mask.into()));
+            let found = find_conventions(view, &file).unwrap().finding;
+            let (Framing { scale, shift, .. }, said, left) = framed(view, &found);
+            assert_eq!((scale, shift, left), ([1.0; 2], [9.0, -5.0], 0), "{said}");
+        });
+    }
 }
 
 /// A ball is a disc from everywhere.
