@@ -82,7 +82,7 @@ impl Coverage {
             let [row, column] = [index / width, index % width];
             let is_at_border =
                 [row, column].contains(&0) || row + 1 == height || column + 1 == width;
-            tell(self.from_middle(middle_of([row, column])), is_at_border);
+            tell(self.offset(middle_of([row, column])), is_at_border);
         }
     }
 
@@ -92,8 +92,8 @@ impl Coverage {
         self.width as f64
     }
 
-    /// A place, from the middle of the picture.
-    pub(super) fn from_middle(&self, place: Place) -> Place {
+    /// How far a place lies from the middle of the picture.
+    pub(super) fn offset(&self, place: Place) -> Place {
         #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
         let middle = [self.width, self.height()].map(|side| side as f64 / 2.0);
         [0, 1].map(|axis| place[axis] - middle[axis])

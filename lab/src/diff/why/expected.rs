@@ -171,6 +171,26 @@ impl<'a> Expected<'a> {
         }
     }
 
+    /// The `t` for which an encoding writes a number in a pixel; `None` where it tells only with what lies in other pixels.
+    pub(super) fn t_of(
+        &self,
+        number: f64,
+        [row, column]: [usize; 2],
+        encoding: DistanceEncoding,
+    ) -> Option<f64> {
+        let along_ray = || self.rays.ray(row, column).direction.length();
+        let t = match encoding {
+            DistanceEncoding::T => number,
+            DistanceEncoding::AlongAxis => number / self.rays.axis().length(),
+            DistanceEncoding::AlongRay => number / along_ray(),
+            DistanceEncoding::NegativeT => -number,
+            DistanceEncoding::NegativeAlongAxis => -number / self.rays.axis().length(),
+            DistanceEncoding::NegativeAlongRay => -number / along_ray(),
+            _ => return None,
+        };
+        Some(t).filter(|t| t.is_finite() && *t > 0.0)
+    }
+
     /// Whether the file agrees with the picture at a pixel that both cover.
     fn agrees(&self, observed: &Observed, probe: &Probe, encoding: &Encoding) -> bool {
         match &observed.values {
@@ -244,7 +264,12 @@ impl<'a> Expected<'a> {
     /// How deep along the axis of the view lies what a pixel shows, from the eye of a perspective camera or the viewport of a
     /// parallel one.
     pub(super) fn depth(&self, pixel: usize) -> f64 {
-        self.drawn.t[pixel] * self.rays.distance
+        self.depth_of(self.drawn.t[pixel])
+    }
+
+    /// How deep lies what is seen at `t`.
+    pub(super) fn depth_of(&self, t: f64) -> f64 {
+        t * self.rays.distance
     }
 
     /// Tells of every drawn pixel: its index among the drawn ones, the index in the file, its row and its column.

@@ -411,9 +411,13 @@ impl Search<'_> {
         if possible(&all).is_none_or(|best| best.score.differing * 2 > differing) {
             all.extend(self.tie_rules(placed, &changes));
         }
-        // What explains all but a few pixels says more than where the eye is; but not a contour of another size or place.
+        // What explains all but a few pixels says more than where the eye is. A contour of another size or place must lie as well as it
+        // can, and is named with another eye.
         let is_explained = possible(&all).is_some_and(|best| {
-            best.score.differing * FEW <= differing && !best.convention.framing.by_contour
+            let framing = best.convention.framing;
+            let few = if framing.by_contour { 1000 } else { FEW };
+            best.score.differing * few <= differing
+                && (!framing.by_contour || framing.is_of_one_kind())
         });
         if !is_explained {
             all.extend(self.posed());

@@ -3,6 +3,7 @@
 mod blank;
 mod framing;
 mod stance;
+mod stance_of_distances;
 mod stance_of_mask;
 
 use super::draw::{Rows, draw};

@@ -34,6 +34,11 @@ impl Framing {
         }
     }
 
+    /// Whether the size alone or the place alone is another.
+    pub(in crate::diff::why) fn is_of_one_kind(self) -> bool {
+        (self.scale == [1.0; 2]) != (self.shift == [0.0; 2])
+    }
+
     /// The same with a simple scale, where one is near: 1, or one for both sides.
     pub(in crate::diff::why) fn with_simple_scale(self) -> Framing {
         let is_near = |one: f64, other: f64| (one - other).abs() < 5e-3;
@@ -96,6 +101,7 @@ mod tests {
         let moved = framing([1.0004, 0.9997], [0.3, 0.02]);
         let simple = moved.with_simple_scale().with_simple_shift();
         assert_eq!(simple, framing([1.0; 2], [0.3, 0.0]));
+        assert!(simple.is_of_one_kind() && !measured.is_of_one_kind());
     }
 
     #[test]

@@ -31,13 +31,7 @@ impl Search<'_> {
     pub(super) fn framed(&self) -> Option<Candidate> {
         match self.observed.values {
             Values::Ids(_) => self.framed_by_primitives(),
-            Values::Mask(_) if self.ours.differing >= FEWEST_OF_MASK => {
-                let starts = self.starts_from_elsewhere().into_iter();
-                let found = starts.flat_map(|start| {
-                    [false, true].map(|is_alone| self.framed_by_contour(&start, is_alone))
-                });
-                found.flatten().min_by_key(Candidate::rank)
-            }
+            Values::Mask(_) if self.ours.differing >= FEWEST_OF_MASK => self.framed_by_contour(),
             Values::Mask(_) | Values::Distances(_) => None,
         }
     }
@@ -71,22 +65,31 @@ impl Search<'_> {
         better(candidate, with_simple_numbers(best, candidate, with))
     }
 
-    /// A mask whose contour lies where the file has it, if it tells enough, with as few numbers as do as well.
-    fn framed_by_contour(&self, start: &Candidate, is_alone: bool) -> Option<Candidate> {
+    /// With more of the scene around it, if that explains a mask; otherwise with nothing around it, if that does.
+    fn framed_by_contour(&self) -> Option<Candidate> {
+        let starts = self.starts_from_elsewhere().into_iter();
+        let mut found = starts
+            .flat_map(|start| [false, true].map(|is_alone| (start, is_alone)))
+            .filter_map(|(start, is_alone)| self.framed_by_contour_so(&start, is_alone));
+        found.find(|one| FEW * one.score.differing <= self.ours.differing)
+    }
+
+    /// A mask whose contour lies where the file has it, if it tells enough, with as few numbers as do nearly as well.
+    fn framed_by_contour_so(&self, start: &Candidate, is_alone: bool) -> Option<Candidate> {
         let framing = Framing { is_alone, by_contour: true, ..Framing::default() };
         let all = self.fitted(start, framing, Stretch::All);
         let differing = start.score.differing;
         if all.score.differing * FEW > differing {
-            return better(start, all);
+            return None;
         }
         let simpler = Stretch::SIMPLER
             .map(|stretch| self.fitted(start, stretch.simplified(all.convention.framing), stretch));
-        let fewest = simpler.iter().chain([&all]).map(|one| one.score.differing).min()?;
-        let mut good = simpler
-            .into_iter()
-            .chain([all])
-            .filter(|one| as_good(one.score.differing, fewest, differing));
-        better(start, good.next()?)
+        let each = || simpler.iter().chain([&all]);
+        let fewest = each().map(|one| one.score.differing).min()?;
+        // Steps are never as small as the number would have to be that leaves the fewest.
+        let most = 2 * fewest + differing / 200;
+        let best = each().find(|one| one.score.differing <= most)?;
+        better(start, *best)
     }
 
     /// The start with a framing, moved in these ways until the contour lies where the file has it.
@@ -197,7 +200,7 @@ impl Stretch {
         let width = ours.width();
         let of_place = [[width, 0.0], [0.0, width]];
         let rows = ours.contour(theirs).into_iter().map(|piece| {
-            let [x, y] = ours.from_middle(piece.place);
+            let [x, y] = ours.offset(piece.place);
             let slopes = match self {
                 Stretch::Size => vec![[x, y]],
                 Stretch::Place => of_place.to_vec(),

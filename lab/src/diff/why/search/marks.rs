@@ -8,12 +8,17 @@ use super::super::fit::seen_in_both;
 use super::super::observed::Values;
 use super::Search;
 use crate::common::Primitive;
+use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::DVec3;
 
 /// For each way in which a stance is free, so many marks must be seen: each primitive tells two numbers, a piece of a contour one,
 /// and its neighbours nearly the same.
 const PRIMITIVES_EACH: usize = 2;
 const PIECES_EACH: usize = 30;
+const POINTS_EACH: usize = 30;
+
+/// Of the points of a surface, about so many are taken.
+const MOST_POINTS: usize = 4000;
 
 /// So many times as far as what is seen of a plane at its contour lies the horizon.
 const HORIZON: f64 = 1e6;
@@ -24,6 +29,8 @@ pub(super) enum Landmarks {
     Middles,
     /// By the contour of what it covers, which is given as our picture lies.
     Contour(Coverage),
+    /// By the surfaces on which its distances end.
+    Surfaces,
 }
 
 impl Landmarks {
@@ -32,34 +39,40 @@ impl Landmarks {
         let each = match self {
             Landmarks::Middles => PRIMITIVES_EACH,
             Landmarks::Contour(_) => PIECES_EACH,
+            Landmarks::Surfaces => POINTS_EACH,
         };
         each * freedom
     }
 }
 
-/// A point of the scene, and the way to where the file has it.
+/// Something of the scene, and the way to where the file has it.
 pub(super) struct Mark {
     pub(super) id: u32,
-    /// In the world.
+    /// In the world: of the scene; of a surface, where a distance of the file ends.
     pub(super) point: DVec3,
-    /// Columns to the right and rows down.
-    pub(super) offset: [f64; 2],
-    /// The only direction in which the offset tells anything, if there is one: a unit vector.
-    pub(super) across: Option<[f64; 2]>,
+    pub(super) way: Way,
     pub(super) weight: f64,
 }
 
+/// The way to where a file has a point.
+pub(super) enum Way {
+    /// By so many columns to the right and rows down.
+    InPicture {
+        offset: [f64; 2],
+        /// The only direction in which the offset tells anything, if there is one: a unit vector.
+        across: Option<[f64; 2]>,
+    },
+    /// The point is this far from the surface on which it should lie, along its normal.
+    ToSurface { normal: DVec3, far: f64 },
+}
+
 impl Search<'_> {
-    /// By what the file tells places, if it does: distances tell none.
-    pub(super) fn landmarks(
-        &self,
-        placement: Placement,
-        nothing: NothingEncoding,
-    ) -> Option<Landmarks> {
+    /// By what the file tells places, if it does.
+    pub(super) fn landmarks(&self, placement: Placement, nothing: NothingEncoding) -> Landmarks {
         match &self.observed.values {
-            Values::Ids(_) => Some(Landmarks::Middles),
-            Values::Mask(_) => Some(Landmarks::Contour(self.coverage(placement, nothing))),
-            Values::Distances(_) => None,
+            Values::Ids(_) => Landmarks::Middles,
+            Values::Mask(_) => Landmarks::Contour(self.coverage(placement, nothing)),
+            Values::Distances(_) => Landmarks::Surfaces,
         }
     }
 
@@ -87,31 +100,79 @@ impl Search<'_> {
                 let seen = seen_in_both(expected, self.observed, placement, encoding)?;
                 let marks = seen.iter().filter_map(|one| {
                     let point = self.center(one.id)?;
-                    let (offset, weight) = (one.offset(), one.weight());
-                    Some(Mark { id: one.id, point, offset, across: None, weight })
+                    let way = Way::InPicture { offset: one.offset(), across: None };
+                    Some(Mark { id: one.id, point, way, weight: one.weight() })
                 });
                 return Some(marks.collect());
             }
             Landmarks::Contour(theirs) => theirs,
+            Landmarks::Surfaces => {
+                return self.marks_of_surfaces(stance, expected, (placement, encoding));
+            }
         };
         let [width, _] = expected.size();
         let ids = &expected.drawn.ids;
         let ours = Coverage::of(expected);
         let marks = ours.contour(theirs).into_iter().map(|piece| {
             let pixel = piece.pixel[0] * width + piece.pixel[1];
-            let [x, y] = ours.from_middle(piece.place);
+            let [x, y] = ours.offset(piece.place);
             // The contour of a plane is its horizon, which no step of the eye brings nearer.
             let far = if self.center(ids[pixel]).is_some() { 1.0 } else { HORIZON };
             let depth = far * expected.depth(pixel);
+            let offset = piece.across.map(|part| piece.farther * part);
             Mark {
                 id: ids[pixel],
                 point: stance.point([x, y, depth], self.view.camera),
-                offset: piece.across.map(|part| piece.farther * part),
-                across: Some(piece.across),
+                way: Way::InPicture { offset, across: Some(piece.across) },
                 weight: piece.length,
             }
         });
         Some(marks.collect())
+    }
+
+    /// The points at which distances of the file end, where our picture shows something, too (Yang Chen, Gérard Medioni, "Object
+    /// modeling by registration of multiple range images", IEEE International Conference on Robotics and Automation, 1991).
+    fn marks_of_surfaces(
+        &self,
+        stance: &Stance,
+        expected: &Expected,
+        (placement, encoding): (Placement, &Encoding),
+    ) -> Option<Vec<Mark>> {
+        let Values::Distances(numbers) = &self.observed.values else { return None };
+        let drawn = expected.drawn;
+        let step = (drawn.ids.len() / MOST_POINTS).max(1);
+        let eye = self.view.camera.eye().as_dvec3();
+        let [width, height] = expected.size();
+        #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
+        let from_middle = |index: usize, side: usize| index as f64 + 0.5 - side as f64 / 2.0;
+        let mut marks = Vec::new();
+        expected.each_pixel(placement, |pixel, index, [row, column]| {
+            let id = drawn.ids[pixel];
+            if pixel % step != 0
+                || id == NO_PRIMITIVE
+                || !self.observed.covered(index, encoding.nothing)
+            {
+                return;
+            }
+            let Some(t) = expected.t_of(numbers[index], [row, column], encoding.distances) else {
+                return;
+            };
+            let place = [from_middle(column, width), from_middle(row, height)];
+            let at = |t: f64| {
+                let [x, y] = place;
+                stance.point([x, y, expected.depth_of(t)], self.view.camera)
+            };
+            let (point, on_surface) = (at(t), at(drawn.t[pixel]));
+            let normal = match self.view.primitive(id.into()) {
+                Primitive::Triangle([a, b, c]) => (b - a).cross(c - a),
+                Primitive::Sphere { center, .. } => on_surface - eye - center,
+                Primitive::Plane { normal, .. } => normal,
+            };
+            let Some(normal) = normal.try_normalize() else { return };
+            let far = normal.dot(on_surface - point);
+            marks.push(Mark { id, point, way: Way::ToSurface { normal, far }, weight: 1.0 });
+        });
+        Some(marks)
     }
 
     /// The middle of a primitive in the world, if it has one.

@@ -1,16 +1,16 @@
 //! The search for an eye and axes that no mistake of the list gives.
 //!
 //! Where the eye stands elsewhere, or looks elsewhere, the middles of the pixels of each primitive lie elsewhere, too, and so does the
-//! contour of all. By least squares (the method of Gauss and Newton), the eye and the axes are moved until they lie where the file has
+//! contour of all, and what distances end on. By least squares (the method of Gauss and Newton), the eye and the axes are moved until they lie where the file has
 //! them. Both pictures are of pixels, and hide the same primitives where they agree: what is measured has no error of its own.
 
 use super::super::candidate::{Candidate, as_good};
 use super::super::convention::{Change, Convention, Moved, Placement, Pose, Stance};
-use super::super::encoding::{Encoding, IdEncoding, NothingEncoding};
+use super::super::encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 use super::super::expected::Expected;
 use super::super::observed::Values;
 use super::least_squares::{NormalEquations, Row};
-use super::marks::{Landmarks, Mark};
+use super::marks::{Landmarks, Mark, Way};
 use super::{FEW, Search};
 use rayon::prelude::*;
 
@@ -45,7 +45,7 @@ impl Search<'_> {
             };
             found.extend(sought(&Moved::simple(self.view.camera)));
             // A contour alone tells too little of all at once.
-            if !few(&found) && matches!(self.observed.values, Values::Ids(_)) {
+            if !few(&found) && !matches!(self.observed.values, Values::Mask(_)) {
                 found.extend(sought(&[Moved::All]));
             }
             if few(&found) {
@@ -68,10 +68,22 @@ impl Search<'_> {
         placed.sort_by_key(|one| (one.convention.placement != Placement::Upright, one.rank()));
         placed.truncate(MOST_PLACEMENTS);
         if matches!(self.observed.values, Values::Mask(_)) {
-            // What is covered elsewhere may be nearer to the inverse of ours.
+            // What is covered elsewhere may be nearer to the inverse of ours, but in most pixels only if it is one.
+            let is_inverted = 2 * self.ours.differing > self.truth.ids.len() as u64;
+            let nothing =
+                if is_inverted { NothingEncoding::Inverted } else { NothingEncoding::Ours };
             let expected = Expected::new(self.view, &Convention::default(), self.truth);
-            let read = |one: Candidate| self.read(one.convention, &expected, NothingEncoding::Ours);
+            let read = |one: Candidate| self.read(one.convention, &expected, nothing);
             return placed.into_iter().map(read).collect();
+        }
+        if let Values::Distances(numbers) = &self.observed.values {
+            placed.truncate(1);
+            let encodings = encodings_of_distances(numbers);
+            let with = |one: &Candidate, distances| Candidate {
+                encoding: Encoding { distances, ..one.encoding },
+                ..*one
+            };
+            return placed.iter().flat_map(|one| encodings.map(|other| with(one, other))).collect();
         }
         let each = placed.into_iter().flat_map(|one| {
             let numberings = self.numberings(one.encoding.nothing).into_iter();
@@ -100,7 +112,9 @@ impl Search<'_> {
     fn posed_so(&self, start: &Candidate, moved: Moved) -> Option<Candidate> {
         let Candidate { convention, encoding, .. } = *start;
         let placement = convention.placement;
-        let landmarks = self.landmarks(placement, encoding.nothing)?;
+        let landmarks = self.landmarks(placement, encoding.nothing);
+        // All distances are wrong until all are right.
+        let is_of_surfaces = matches!(landmarks, Landmarks::Surfaces);
         let fewest = landmarks.fewest(moved.freedom(self.view.camera.projection()));
         let mut stance = Stance::stated(self.view.camera, moved);
         let mut best: Option<Candidate> = None;
@@ -114,7 +128,7 @@ impl Search<'_> {
             let read = self.read(next, &expected, encoding.nothing);
             if best.is_none_or(|best| read.score.differing < best.score.differing) {
                 (best, worse) = (Some(read), 0);
-            } else {
+            } else if !is_of_surfaces {
                 worse += 1;
             }
             let marks = self.marks(&landmarks, &stance, &expected, (placement, &encoding))?;
@@ -130,6 +144,7 @@ impl Search<'_> {
             }
             let Some(mut step) = self.step(&landmarks, &stance, &marks) else { break };
             last = match last {
+                _ if is_of_surfaces => None,
                 Some(last) => {
                     step.extrapolate(&last);
                     None
@@ -155,14 +170,18 @@ impl Search<'_> {
         (is_only && self.view.scene.objects().len() > 1).then_some(first)
     }
 
-    /// Whether marks of a contour tell each part of a stance: that of a sphere, for one, is the same from many eyes, and a horizon
-    /// from all.
+    /// Whether marks of a contour or of surfaces tell each part of a stance: that of a sphere, for one, is the same from many eyes, and
+    /// a horizon from all.
     fn tell_all(&self, landmarks: &Landmarks, stance: &Stance, marks: &[Mark]) -> bool {
         if matches!(landmarks, Landmarks::Middles) {
             return true;
         }
         let freedom = stance.moved.freedom(self.view.camera.projection());
-        if stance.moved.is_of_eye() && marks.iter().all(|mark| self.center(mark.id).is_none()) {
+        let is_contour = matches!(landmarks, Landmarks::Contour(_));
+        if is_contour
+            && stance.moved.is_of_eye()
+            && marks.iter().all(|mark| self.center(mark.id).is_none())
+        {
             return false;
         }
         let Some((rows, _)) = self.rows(stance, marks) else { return false };
@@ -174,11 +193,16 @@ impl Search<'_> {
         let freedom = stance.moved.freedom(self.view.camera.projection());
         let (mut rows, length) = self.rows(stance, marks)?;
         let mut by = NormalEquations::new(&rows, freedom).solution()?;
-        if matches!(landmarks, Landmarks::Middles) {
-            // What lies far off is hidden otherwise in one of both, and its middle is that of another part.
+        // What lies far off is hidden otherwise in one of both: its middle is that of another part, its surface another one.
+        let least = match landmarks {
+            Landmarks::Middles => Some(0.5),
+            Landmarks::Surfaces => Some(1e-3),
+            Landmarks::Contour(_) => None,
+        };
+        if let Some(least) = least {
             let mut left: Vec<f64> = rows.iter().map(|row| row.left(&by)).collect();
             left.sort_by(f64::total_cmp);
-            let most = 3.0 * left.get(left.len() / 2)? + 0.5;
+            let most = 3.0 * left.get(left.len() / 2)? + least;
             rows.retain(|row| row.left(&by) <= most);
             by = NormalEquations::new(&rows, freedom).solution()?;
         }
@@ -209,19 +233,44 @@ impl Search<'_> {
             stance.after(&step, length, camera)
         });
         let moved: Vec<Stance> = moved.collect::<Option<_>>()?;
-        let rows = placed.iter().filter_map(|(mark, [x, y, _])| {
-            let slopes = moved.iter().map(|moved| {
-                let [right, down, _] = moved.place(mark.point, camera)?;
-                Some([(right - x) / SMALL, (down - y) / SMALL])
+        let rows = placed.iter().filter_map(|(mark, place @ [x, y, depth])| {
+            let weight = mark.weight;
+            // As many pixels as a part of the depth would be, seen from beside.
+            let pixels = f64::from(camera.image()[0]) / depth.abs();
+            let slopes = moved.iter().map(|moved| match mark.way {
+                Way::InPicture { .. } => {
+                    let [right, down, _] = moved.place(mark.point, camera)?;
+                    Some([(right - x) / SMALL, (down - y) / SMALL])
+                }
+                Way::ToSurface { normal, .. } => {
+                    let by = normal.dot(moved.point(*place, camera) - mark.point);
+                    Some([pixels * by / SMALL, 0.0])
+                }
             });
             let slopes: Vec<[f64; 2]> = slopes.collect::<Option<_>>()?;
-            let row = Row { slopes, offset: mark.offset, weight: mark.weight };
-            Some(match mark.across {
-                Some(across) => row.along(across),
-                None => row,
+            Some(match mark.way {
+                Way::InPicture { offset, across: Some(across) } => {
+                    Row { slopes, offset, weight }.along(across)
+                }
+                Way::InPicture { offset, across: None } => Row { slopes, offset, weight },
+                Way::ToSurface { far, .. } => Row { slopes, offset: [pixels * far, 0.0], weight },
             })
         });
         Some((rows.collect(), length))
+    }
+}
+
+/// What distances may stand for, if most of them are numbers of this sign.
+fn encodings_of_distances(numbers: &[f64]) -> [DistanceEncoding; 3] {
+    use DistanceEncoding::{
+        AlongAxis, AlongRay, NegativeAlongAxis, NegativeAlongRay, NegativeT, T,
+    };
+    let finite = || numbers.iter().filter(|number| number.is_finite());
+    let negative = finite().filter(|number| **number < 0.0).count();
+    if 2 * negative > finite().count() {
+        [NegativeT, NegativeAlongAxis, NegativeAlongRay]
+    } else {
+        [T, AlongAxis, AlongRay]
     }
 }
 

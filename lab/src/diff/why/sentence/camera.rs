@@ -135,11 +135,15 @@ pub(super) fn of_framing(
         if placement == Placement::Upright { "" } else { " (once the picture is upright)" };
     let beside = if is_alone { ", and nothing around it" } else { "" };
     let cause = camera.and_then(|camera| match (size.is_some(), moved.is_some()) {
-        (true, _) if is_alone => cause_of_part([x, y], camera),
+        (true, _) if is_alone => cause_of_part([x, y], camera).map(|part| format!(": {part}?")),
         (true, false) => Some(causes_of_size([x, y], by_contour, camera)),
         (false, true) if !is_alone => Some(causes_of_shift(by_contour, camera)),
         (true, true) if by_contour => {
-            Some(": is its eye another, or all of the scene moved and of another size?".into())
+            let part = cause_of_part([x, y], camera).map(|part| format!("{part}, "));
+            let part = part.unwrap_or_default();
+            Some(format!(
+                ": {part}is its eye another, or is all of the scene moved and of another size?"
+            ))
         }
         _ => None,
     });
@@ -152,7 +156,7 @@ fn cause_of_part([x, y]: [f64; 2], camera: &Camera) -> Option<String> {
     let [width, height] = camera.image();
     let [columns, rows] = [x * f64::from(width), y * f64::from(height)].map(f64::round);
     let question =
-        format!(": does it draw {columns} x {rows} pixels into an image of {width} x {height}?");
+        format!("does it draw {columns} x {rows} pixels into an image of {width} x {height}");
     (x <= 1.0 && y <= 1.0).then_some(question)
 }
 
@@ -257,7 +261,12 @@ mod tests {
         );
         assert_eq!(
             of_mask([0.8, 0.8], [3.0, 0.0]),
-            "shows everything 0.8 times as large, and 3 pixels too far to the right: is its eye another, or all of the \
+            "shows everything 0.8 times as large, and 3 pixels too far to the right: does it draw 13 x 10 pixels into an \
+             image of 16 x 12, is its eye another, or is all of the scene moved and of another size?"
+        );
+        assert_eq!(
+            of_mask([1.2, 1.2], [3.0, 0.0]),
+            "shows everything 1.2 times as large, and 3 pixels too far to the right: is its eye another, or is all of the \
              scene moved and of another size?"
         );
     }
