@@ -32,8 +32,8 @@ mod suggestions;
 mod together;
 
 pub use convention::{
-    Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Framing, Look, Moved, NearPlane,
-    Omission, Part, Placement, Pose, Rays, Sampling, Several, ShapeKind, Stance,
+    Between, Change, Clip, Convention, Depth, Edges, Evidence, Faces, Field, Framing, Look, Moved,
+    NearPlane, Omission, Part, Placement, Pose, Rays, Sampling, Several, ShapeKind, Stance,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};

@@ -12,7 +12,7 @@ mod sampling;
 mod stance;
 
 pub use field::Field;
-pub use framing::Framing;
+pub use framing::{Evidence, Framing};
 pub use omission::{Between, Clip, NearPlane, Omission, Part, Several, ShapeKind};
 pub use placement::Placement;
 pub use pose::Pose;

@@ -11,7 +11,7 @@ mod marks;
 mod pose;
 
 use super::candidate::{Candidate, as_good, parts};
-use super::convention::{Change, Convention, Placement, Pose};
+use super::convention::{Change, Convention, Evidence, Placement, Pose};
 use super::differences::Differences;
 use super::draw::{Drawn, Rows, draw, equally_near};
 use super::encoding::{Encoding, IdEncoding, NothingEncoding};
@@ -398,7 +398,8 @@ impl Search<'_> {
         }
         // The contour of a mask that is framed and has another mistake, too, is that of many things.
         let is_start = |one: &Candidate| {
-            !one.convention.framing.by_contour && 2 * one.score.differing < differing
+            one.convention.framing.evidence != Evidence::Contour
+                && 2 * one.score.differing < differing
         };
         starts.extend(framed.filter(is_start));
         for start in starts {
@@ -415,9 +416,9 @@ impl Search<'_> {
         // can, and is named with another eye.
         let is_explained = possible(&all).is_some_and(|best| {
             let framing = best.convention.framing;
-            let few = if framing.by_contour { 1000 } else { FEW };
-            best.score.differing * few <= differing
-                && (!framing.by_contour || framing.is_of_one_kind())
+            let is_of_contour = framing.evidence == Evidence::Contour;
+            let few = if is_of_contour { 1000 } else { FEW };
+            best.score.differing * few <= differing && (!is_of_contour || framing.is_of_one_kind())
         });
         if !is_explained {
             all.extend(self.posed());

@@ -11,13 +11,25 @@ pub struct Framing {
     pub shift: [f64; 2],
     /// Whether nothing is seen around it, where the scene goes on.
     pub is_alone: bool,
-    /// Whether the contour of a mask alone tells it: a scene of another size or in another place may have the same.
-    pub by_contour: bool,
+    /// What tells it.
+    pub evidence: Evidence,
+}
+
+/// What tells a framing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Evidence {
+    /// The places of primitives.
+    #[default]
+    Primitives,
+    /// The contour of a mask alone: a scene of another size or in another place may have the same.
+    Contour,
+    /// Distances, which from another eye would be others.
+    Distances,
 }
 
 impl Default for Framing {
     fn default() -> Self {
-        Framing { scale: [1.0; 2], shift: [0.0; 2], is_alone: false, by_contour: false }
+        Framing { scale: [1.0; 2], shift: [0.0; 2], is_alone: false, evidence: Evidence::default() }
     }
 }
 
@@ -26,12 +38,7 @@ impl Framing {
     pub(in crate::diff::why) fn then(self, next: Framing) -> Framing {
         let scale = [0, 1].map(|axis| self.scale[axis] * next.scale[axis]);
         let shift = [0, 1].map(|axis| self.shift[axis] * next.scale[axis] + next.shift[axis]);
-        Framing {
-            scale,
-            shift,
-            is_alone: self.is_alone || next.is_alone,
-            by_contour: self.by_contour || next.by_contour,
-        }
+        Framing { scale, shift, is_alone: self.is_alone || next.is_alone, ..self }
     }
 
     /// Whether the size alone or the place alone is another.
@@ -81,7 +88,7 @@ mod tests {
     #[test]
     fn two_framings_are_one() {
         let first =
-            Framing { scale: [2.0, 1.0], shift: [3.0, -1.0], is_alone: true, by_contour: false };
+            Framing { scale: [2.0, 1.0], shift: [3.0, -1.0], is_alone: true, ..Framing::default() };
         let second = Framing { scale: [0.5, 4.0], shift: [1.0, 2.0], ..Framing::default() };
         let both = first.then(second);
         assert_eq!(both, Framing { scale: [1.0, 4.0], shift: [2.5, -2.0], ..first });

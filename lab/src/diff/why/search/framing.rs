@@ -2,23 +2,24 @@
 
 use super::super::candidate::{Candidate, as_good};
 use super::super::contour::Coverage;
-use super::super::convention::{Change, Convention, Framing};
+use super::super::convention::{Change, Convention, Evidence, Framing, Moved, Placement, Stance};
 use super::super::encoding::{Encoding, IdEncoding};
-use super::super::expected::Expected;
+use super::super::expected::{Expected, Score};
 use super::super::fit::{Fit, framing_of_file, framing_of_mask};
 use super::super::observed::Values;
-use super::least_squares::{NormalEquations, Row};
+use super::least_squares::{NormalEquations, Row, solution_of_most};
+use super::marks::{FAR_OF_SURFACE, Landmarks, Way};
 use super::{FEW, Search};
 
 /// So often a framing is measured: each time, pixels round less.
 const MOST_FITS: usize = 6;
 
-/// So often the contour of a mask is moved, and so often in a row for nothing.
+/// So often a contour, or what distances end on, is moved, and so often in a row for nothing.
 const MOST_STEPS: usize = 12;
 const MOST_WORSE: usize = 4;
 
-/// A mask that differs in fewer pixels tells no four numbers.
-const FEWEST_OF_MASK: u64 = 100;
+/// A mask or distances that differ in fewer pixels tell no four numbers.
+const FEWEST_PIXELS: u64 = 100;
 
 /// At once, a contour is moved by at most this part of the picture's size.
 const LONGEST: f64 = 0.5;
@@ -27,12 +28,15 @@ const LONGEST: f64 = 0.5;
 const MOST_PLACEMENTS: usize = 2;
 
 impl Search<'_> {
-    /// Our conventions with the size and the place of the picture that the file shows, if it is one of ids or a mask.
+    /// Our conventions with the size and the place of the picture that the file shows.
     pub(super) fn framed(&self) -> Option<Candidate> {
+        if self.ours.differing < FEWEST_PIXELS && !matches!(self.observed.values, Values::Ids(_)) {
+            return None;
+        }
         match self.observed.values {
             Values::Ids(_) => self.framed_by_primitives(),
-            Values::Mask(_) if self.ours.differing >= FEWEST_OF_MASK => self.framed_by_contour(),
-            Values::Mask(_) | Values::Distances(_) => None,
+            Values::Mask(_) => self.framed_by_contour(),
+            Values::Distances(_) => self.framed_by_distances(),
         }
     }
 
@@ -76,8 +80,7 @@ impl Search<'_> {
 
     /// A mask whose contour lies where the file has it, if it tells enough, with as few numbers as do nearly as well.
     fn framed_by_contour_so(&self, start: &Candidate, is_alone: bool) -> Option<Candidate> {
-        let framing = Framing { is_alone, by_contour: true, ..Framing::default() };
-        let all = self.fitted(start, framing, Stretch::All);
+        let all = self.fitted(start, Framing { is_alone, ..Framing::default() }, Stretch::All);
         let differing = start.score.differing;
         if all.score.differing * FEW > differing {
             return None;
@@ -92,18 +95,19 @@ impl Search<'_> {
         better(start, *best)
     }
 
-    /// The start with a framing, moved in these ways until the contour lies where the file has it.
-    fn fitted(&self, start: &Candidate, mut framing: Framing, stretch: Stretch) -> Candidate {
+    /// The start with a framing, moved in these ways until the contour lies where the file has it. Only what is covered counts.
+    fn fitted(&self, start: &Candidate, framing: Framing, stretch: Stretch) -> Candidate {
         let Candidate { convention, encoding, .. } = *start;
         let theirs = self.coverage(convention.placement, encoding.nothing);
         let read = |framing: Framing| {
             let next = convention.with(Change::Framing(framing));
             let drawn = self.whole(&next);
             let expected = Expected::new(self.view, &next, &drawn);
-            let ours = Coverage::of(&expected);
-            (self.read(next, &expected, encoding.nothing), ours)
+            let read = as_mask(self.read(next, &expected, encoding.nothing));
+            (read, Coverage::of(&expected))
         };
-        let (mut best, mut worse) = (*start, 0);
+        let (mut best, mut worse) = (as_mask(*start), 0);
+        let mut framing = Framing { evidence: Evidence::Contour, ..framing };
         for _ in 0..MOST_STEPS {
             let (fitted, ours) = read(framing);
             if fitted.score.differing < best.score.differing {
@@ -120,6 +124,72 @@ impl Search<'_> {
         with_simple_numbers(best, start, |framing| read(framing).0)
     }
 
+    /// Distances of a picture whose contour lies where the file has it, if it has one, and that end on what is seen.
+    fn framed_by_distances(&self) -> Option<Candidate> {
+        let starts = self.starts_from_elsewhere();
+        let rough = self.fitted(starts.first()?, Framing::default(), Stretch::All);
+        let mut framings = vec![rough.convention.framing];
+        if rough.convention.is_framed() {
+            framings.push(Framing::default());
+        }
+        let mut found = starts.iter().flat_map(|start| {
+            framings.iter().filter_map(|framing| self.fitted_to_surfaces(start, *framing))
+        });
+        found.find(|one| FEW * one.score.differing <= self.ours.differing)
+    }
+
+    fn fitted_to_surfaces(&self, start: &Candidate, framing: Framing) -> Option<Candidate> {
+        let Candidate { convention, encoding, .. } = *start;
+        let with = |framing: Framing| convention.with(Change::Framing(framing));
+        let mut framing = Framing { evidence: Evidence::Distances, ..framing };
+        let mut best = *start;
+        for _ in 0..MOST_STEPS {
+            let next = with(framing);
+            let drawn = self.whole(&next);
+            let expected = Expected::new(self.view, &next, &drawn);
+            let fitted = self.read(next, &expected, encoding.nothing);
+            if fitted.score.differing < best.score.differing {
+                best = fitted;
+            }
+            if best.score.differing == 0 {
+                break;
+            }
+            let of_file = (convention.placement, &encoding);
+            let Some(step) = self.step_of_surfaces(&expected, of_file, framing) else { break };
+            framing = framing.then(step);
+        }
+        better(start, with_simple_numbers(best, start, |framing| self.drawn_whole(with(framing))))
+    }
+
+    /// The framing that takes what is seen at the ends of distances to where the file has it, nearly, if they tell all of it.
+    fn step_of_surfaces(
+        &self,
+        expected: &Expected,
+        of_file: (Placement, &Encoding),
+        framing: Framing,
+    ) -> Option<Framing> {
+        let camera = self.view.camera;
+        let stance = Stance::stated(camera, Moved::All);
+        let marks = self.marks_of_surfaces(&stance, expected, of_file, framing)?;
+        let clues = marks.iter().filter_map(|mark| {
+            let Way::ToSurface { normal, far } = mark.way else { return None };
+            let [x, y, depth] = stance.place(mark.point, camera)?;
+            let pixels = self.pixels_of_depth(depth);
+            let right = stance.point([x + 1.0, y, depth], camera) - mark.point;
+            let down = stance.point([x, y + 1.0, depth], camera) - mark.point;
+            // Where everything is moved to the right, a pixel shows what lies farther to the left.
+            let along = [right, down].map(|side| -pixels * normal.dot(side));
+            let along = [0, 1].map(|axis| along[axis] / framing.scale[axis]);
+            let place = [0, 1].map(|axis| [x, y][axis] * framing.scale[axis] + framing.shift[axis]);
+            Some(Clue { place, along, by: pixels * far, weight: mark.weight })
+        });
+        let clues: Vec<Clue> = clues.collect();
+        if clues.len() < Landmarks::Surfaces.fewest(Stretch::All.freedom()) {
+            return None;
+        }
+        Stretch::All.step_of(&clues, f64::from(camera.image()[0]), Some(FAR_OF_SURFACE))
+    }
+
     /// The framing that primitives tell best. In a picture of another size, numbers say nothing yet about how they count.
     fn fit(&self, candidate: &Candidate) -> Option<Framing> {
         let drawn = self.whole(&candidate.convention);
@@ -132,6 +202,23 @@ impl Search<'_> {
         let best = fits.max_by(|one, other| one.correlation.total_cmp(&other.correlation));
         best.map(|Fit { framing, .. }| framing)
     }
+}
+
+/// What tells by how much a picture is off in one direction.
+struct Clue {
+    /// From the middle of the picture, in pixels.
+    place: [f64; 2],
+    /// By how much it comes nearer where everything there is moved by a pixel to the right, and down.
+    along: [f64; 2],
+    /// By how much it should.
+    by: f64,
+    weight: f64,
+}
+
+/// The candidate as if only what is covered counted.
+fn as_mask(candidate: Candidate) -> Candidate {
+    let Score { coverage, .. } = candidate.score;
+    Candidate { score: Score { differing: coverage, ..candidate.score }, ..candidate }
 }
 
 /// The candidate with simple numbers in its framing, where these do as well.
@@ -197,10 +284,27 @@ impl Stretch {
     }
 
     fn step_of_contour(self, ours: &Coverage, theirs: &Coverage) -> Option<Framing> {
-        let width = ours.width();
+        let pieces = ours.contour(theirs).into_iter().map(|piece| {
+            let place = ours.offset(piece.place);
+            Clue { place, along: piece.across, by: piece.farther, weight: piece.length }
+        });
+        self.step_of(&pieces.collect::<Vec<_>>(), ours.width(), None)
+    }
+
+    /// In how many ways it moves a picture.
+    fn freedom(self) -> usize {
+        match self {
+            Stretch::Size => 1,
+            Stretch::Place | Stretch::Sides => 2,
+            Stretch::SizeAndPlace => 3,
+            Stretch::All => 4,
+        }
+    }
+
+    /// The framing that clues tell, if they tell all of it; without those that are farther off than most, if they may be so far.
+    fn step_of(self, clues: &[Clue], width: f64, least: Option<f64>) -> Option<Framing> {
         let of_place = [[width, 0.0], [0.0, width]];
-        let rows = ours.contour(theirs).into_iter().map(|piece| {
-            let [x, y] = ours.offset(piece.place);
+        let rows = clues.iter().map(|&Clue { place: [x, y], along, by, weight }| {
             let slopes = match self {
                 Stretch::Size => vec![[x, y]],
                 Stretch::Place => of_place.to_vec(),
@@ -208,13 +312,18 @@ impl Stretch {
                 Stretch::SizeAndPlace => [&[[x, y]][..], &of_place].concat(),
                 Stretch::All => [&[[x, 0.0], [0.0, y]], &of_place[..]].concat(),
             };
-            let offset = piece.across.map(|part| piece.farther * part);
-            Row { slopes, offset, weight: piece.length }.along(piece.across)
+            let moved = Row { slopes, offset: [0.0; 2], weight }.along(along);
+            Row { offset: [by, 0.0], ..moved }
         });
         let rows: Vec<Row> = rows.collect();
-        let freedom = rows.first()?.slopes.len();
-        let equations = NormalEquations::new(&rows, freedom);
-        let by = equations.solution().filter(|_| equations.tell_all_ways())?;
+        let equations = NormalEquations::new(&rows, self.freedom());
+        if !equations.tell_all_ways() {
+            return None;
+        }
+        let by = match least {
+            Some(least) => solution_of_most(rows, self.freedom(), least)?,
+            None => equations.solution()?,
+        };
         let by: Vec<f64> = by.into_iter().map(|by| by.clamp(-LONGEST, LONGEST)).collect();
         let (scale, shift) = match (self, &by[..]) {
             (Stretch::Place, shift) => ([0.0; 2], shift),

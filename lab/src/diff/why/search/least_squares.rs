@@ -32,6 +32,16 @@ impl Row {
     }
 }
 
+/// The solution of most rows: without those that are farther off than three times the middle one, and than the least.
+pub(super) fn solution_of_most(mut rows: Vec<Row>, freedom: usize, least: f64) -> Option<Vec<f64>> {
+    let by = NormalEquations::new(&rows, freedom).solution()?;
+    let mut left: Vec<f64> = rows.iter().map(|row| row.left(&by)).collect();
+    left.sort_by(f64::total_cmp);
+    let most = 3.0 * left.get(left.len() / 2)? + least;
+    rows.retain(|row| row.left(&by) <= most);
+    NormalEquations::new(&rows, freedom).solution()
+}
+
 /// The normal equations of some rows. A way that no place depends on stays as it is.
 pub(super) struct NormalEquations {
     matrix: Vec<Vec<f64>>,
@@ -128,6 +138,14 @@ mod tests {
         assert!(is_near(by[0], 6.0) && is_near(by[1], 2.0) && by[2] == 0.0, "{by:?}");
         assert!(is_near(rows[0].left(&by), 3.0) && is_near(rows[1].left(&by), 1.0));
         assert_eq!(NormalEquations::new(&[], 1).solution(), None);
+    }
+
+    #[test]
+    fn what_is_far_off_is_left_out() {
+        let at = |offset: f64| row(&[[1.0, 0.0]], [offset, 0.0], 1.0);
+        let rows: Vec<Row> = [2.0, 2.1, 1.9, 2.0, 2.0, 2.0, 30.0].map(at).to_vec();
+        assert!(is_near(solution_of_most(rows.clone(), 1, 0.5).unwrap()[0], 2.0));
+        assert!(is_near(solution_of_most(rows, 1, 50.0).unwrap()[0], 6.0));
     }
 
     #[test]

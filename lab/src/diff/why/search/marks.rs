@@ -1,7 +1,7 @@
 //! Points of the scene, and where a file has them.
 
 use super::super::contour::Coverage;
-use super::super::convention::{Convention, Placement, Stance};
+use super::super::convention::{Convention, Framing, Placement, Stance};
 use super::super::encoding::{Encoding, NothingEncoding};
 use super::super::expected::Expected;
 use super::super::fit::seen_in_both;
@@ -19,6 +19,9 @@ const POINTS_EACH: usize = 30;
 
 /// Of the points of a surface, about so many are taken.
 const MOST_POINTS: usize = 4000;
+
+/// A point that is farther from its surface than others, but not by more than this, in pixels, belongs to it.
+pub(super) const FAR_OF_SURFACE: f64 = 1e-3;
 
 /// So many times as far as what is seen of a plane at its contour lies the horizon.
 const HORIZON: f64 = 1e6;
@@ -107,7 +110,8 @@ impl Search<'_> {
             }
             Landmarks::Contour(theirs) => theirs,
             Landmarks::Surfaces => {
-                return self.marks_of_surfaces(stance, expected, (placement, encoding));
+                let framing = Framing::default();
+                return self.marks_of_surfaces(stance, expected, (placement, encoding), framing);
             }
         };
         let [width, _] = expected.size();
@@ -132,11 +136,12 @@ impl Search<'_> {
 
     /// The points at which distances of the file end, where our picture shows something, too (Yang Chen, Gérard Medioni, "Object
     /// modeling by registration of multiple range images", IEEE International Conference on Robotics and Automation, 1991).
-    fn marks_of_surfaces(
+    pub(super) fn marks_of_surfaces(
         &self,
         stance: &Stance,
         expected: &Expected,
         (placement, encoding): (Placement, &Encoding),
+        framing: Framing,
     ) -> Option<Vec<Mark>> {
         let Values::Distances(numbers) = &self.observed.values else { return None };
         let drawn = expected.drawn;
@@ -158,6 +163,7 @@ impl Search<'_> {
                 return;
             };
             let place = [from_middle(column, width), from_middle(row, height)];
+            let place = [0, 1].map(|axis| framing.source(axis, place[axis]));
             let at = |t: f64| {
                 let [x, y] = place;
                 stance.point([x, y, expected.depth_of(t)], self.view.camera)
@@ -173,6 +179,11 @@ impl Search<'_> {
             marks.push(Mark { id, point, way: Way::ToSurface { normal, far }, weight: 1.0 });
         });
         Some(marks)
+    }
+
+    /// How many pixels a length is at this depth, seen from beside, if it is as long as the picture is wide there.
+    pub(super) fn pixels_of_depth(&self, depth: f64) -> f64 {
+        f64::from(self.view.camera.image()[0]) / depth.abs()
     }
 
     /// The middle of a primitive in the world, if it has one.

@@ -9,8 +9,8 @@ use super::super::convention::{Change, Convention, Moved, Placement, Pose, Stanc
 use super::super::encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 use super::super::expected::Expected;
 use super::super::observed::Values;
-use super::least_squares::{NormalEquations, Row};
-use super::marks::{Landmarks, Mark, Way};
+use super::least_squares::{NormalEquations, Row, solution_of_most};
+use super::marks::{FAR_OF_SURFACE, Landmarks, Mark, Way};
 use super::{FEW, Search};
 use rayon::prelude::*;
 
@@ -77,13 +77,16 @@ impl Search<'_> {
             return placed.into_iter().map(read).collect();
         }
         if let Values::Distances(numbers) = &self.observed.values {
-            placed.truncate(1);
+            let Some(best) = placed.first() else { return Vec::new() };
             let encodings = encodings_of_distances(numbers);
-            let with = |one: &Candidate, distances| Candidate {
-                encoding: Encoding { distances, ..one.encoding },
-                ..*one
-            };
-            return placed.iter().flat_map(|one| encodings.map(|other| with(one, other))).collect();
+            // A number that many pixels have is that of nothing rather than a distance.
+            let each = self.meanings_of_nothing.iter().rev().flat_map(|&nothing| {
+                encodings.map(|distances| {
+                    let encoding = Encoding { distances, nothing, ..best.encoding };
+                    Candidate { encoding, ..*best }
+                })
+            });
+            return each.collect();
         }
         let each = placed.into_iter().flat_map(|one| {
             let numberings = self.numberings(one.encoding.nothing).into_iter();
@@ -191,21 +194,13 @@ impl Search<'_> {
     /// The step that brings what is seen to where the file has it.
     fn step(&self, landmarks: &Landmarks, stance: &Stance, marks: &[Mark]) -> Option<Step> {
         let freedom = stance.moved.freedom(self.view.camera.projection());
-        let (mut rows, length) = self.rows(stance, marks)?;
-        let mut by = NormalEquations::new(&rows, freedom).solution()?;
+        let (rows, length) = self.rows(stance, marks)?;
         // What lies far off is hidden otherwise in one of both: its middle is that of another part, its surface another one.
-        let least = match landmarks {
-            Landmarks::Middles => Some(0.5),
-            Landmarks::Surfaces => Some(1e-3),
-            Landmarks::Contour(_) => None,
+        let mut by = match landmarks {
+            Landmarks::Middles => solution_of_most(rows, freedom, 0.5)?,
+            Landmarks::Surfaces => solution_of_most(rows, freedom, FAR_OF_SURFACE)?,
+            Landmarks::Contour(_) => NormalEquations::new(&rows, freedom).solution()?,
         };
-        if let Some(least) = least {
-            let mut left: Vec<f64> = rows.iter().map(|row| row.left(&by)).collect();
-            left.sort_by(f64::total_cmp);
-            let most = 3.0 * left.get(left.len() / 2)? + least;
-            rows.retain(|row| row.left(&by) <= most);
-            by = NormalEquations::new(&rows, freedom).solution()?;
-        }
         let longest = by.iter().fold(0.0, |longest: f64, by| longest.max(by.abs()));
         if longest > LONGEST {
             by.iter_mut().for_each(|by| *by *= LONGEST / longest);
@@ -235,8 +230,7 @@ impl Search<'_> {
         let moved: Vec<Stance> = moved.collect::<Option<_>>()?;
         let rows = placed.iter().filter_map(|(mark, place @ [x, y, depth])| {
             let weight = mark.weight;
-            // As many pixels as a part of the depth would be, seen from beside.
-            let pixels = f64::from(camera.image()[0]) / depth.abs();
+            let pixels = self.pixels_of_depth(*depth);
             let slopes = moved.iter().map(|moved| match mark.way {
                 Way::InPicture { .. } => {
                     let [right, down, _] = moved.place(mark.point, camera)?;
@@ -261,7 +255,7 @@ impl Search<'_> {
 }
 
 /// What distances may stand for, if most of them are numbers of this sign.
-fn encodings_of_distances(numbers: &[f64]) -> [DistanceEncoding; 3] {
+pub(super) fn encodings_of_distances(numbers: &[f64]) -> [DistanceEncoding; 3] {
     use DistanceEncoding::{
         AlongAxis, AlongRay, NegativeAlongAxis, NegativeAlongRay, NegativeT, T,
     };

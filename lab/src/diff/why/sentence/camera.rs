@@ -2,7 +2,7 @@
 
 use super::stance::of_stance;
 use crate::common::{Camera, Projection};
-use crate::diff::why::convention::{Field, Framing, Placement, Pose};
+use crate::diff::why::convention::{Evidence, Field, Framing, Placement, Pose};
 use crate::wording::three_digits;
 
 /// The eye and the axes; the camera tells what measured ones are not.
@@ -117,7 +117,8 @@ pub(super) fn of_framing(
     placement: Placement,
     camera: Option<&Camera>,
 ) -> String {
-    let Framing { scale: [x, y], shift, is_alone, by_contour } = framing;
+    let Framing { scale: [x, y], shift, is_alone, evidence } = framing;
+    let by_contour = evidence == Evidence::Contour;
     let [wide, high] = [x, y].map(three_digits);
     let size = match (wide == high, wide == "1", high == "1") {
         (true, true, _) => None,
@@ -136,7 +137,7 @@ pub(super) fn of_framing(
     let beside = if is_alone { ", and nothing around it" } else { "" };
     let cause = camera.and_then(|camera| match (size.is_some(), moved.is_some()) {
         (true, _) if is_alone => cause_of_part([x, y], camera).map(|part| format!(": {part}?")),
-        (true, false) => Some(causes_of_size([x, y], by_contour, camera)),
+        (true, false) => Some(causes_of_size([x, y], evidence, camera)),
         (false, true) if !is_alone => Some(causes_of_shift(by_contour, camera)),
         (true, true) if by_contour => {
             let part = cause_of_part([x, y], camera).map(|part| format!("{part}, "));
@@ -190,7 +191,7 @@ fn of_shift([right, down]: [f64; 2]) -> Option<String> {
 
 /// The viewport, the distance, the field of view and the eye that would show everything so large, and the scene, where a contour alone
 /// tells the size.
-fn causes_of_size([x, y]: [f64; 2], by_contour: bool, camera: &Camera) -> String {
+fn causes_of_size([x, y]: [f64; 2], evidence: Evidence, camera: &Camera) -> String {
     let [vw, vh] = camera.viewport();
     let sides = |[vw, vh]: [f64; 2]| format!("{} x {}", three_digits(vw), three_digits(vh));
     let mut causes =
@@ -200,11 +201,13 @@ fn causes_of_size([x, y]: [f64; 2], by_contour: bool, camera: &Camera) -> String
         let angle = |vh: f64| three_digits(2.0 * (vh / 2.0 / d).atan().to_degrees());
         let angles = format!("its field of view {} degrees high, not {}", angle(vh / y), angle(vh));
         causes.insert(0, angles);
-        causes.push(format!("its d {}, not {}", three_digits(d * x), three_digits(d)));
-        // Where all lies at one distance, this is the same picture.
-        causes.push(format!("its eye {}", if x > 1.0 { "nearer" } else { "farther away" }));
+        if evidence != Evidence::Distances {
+            causes.push(format!("its d {}, not {}", three_digits(d * x), three_digits(d)));
+            // Where all lies at one distance, this is the same picture.
+            causes.push(format!("its eye {}", if x > 1.0 { "nearer" } else { "farther away" }));
+        }
     }
-    if by_contour {
+    if evidence == Evidence::Contour {
         let other = if x == y { "size" } else { "shape" };
         causes.push(format!("all of the scene of another {other}"));
     }
@@ -221,7 +224,7 @@ mod tests {
         let camera = Camera::canonical(12, 16);
         let of = |framing, placement| of_framing(framing, placement, Some(&camera));
         let said = |scale, shift, is_alone, placement| {
-            of(Framing { scale, shift, is_alone, by_contour: false }, placement)
+            of(Framing { scale, shift, is_alone, evidence: Evidence::Primitives }, placement)
         };
         use Placement::{Upright, UpsideDown};
         assert_eq!(
@@ -247,12 +250,21 @@ mod tests {
             said([0.9998, 1.0], [2.0, 0.02], false, Upright),
             "shows everything 2 pixels too far to the right: is the middle of its viewport not on the axis of its camera?"
         );
-        let of_mask =
-            |scale, shift| of(Framing { scale, shift, is_alone: false, by_contour: true }, Upright);
+        let of_mask = |scale, shift| {
+            let evidence = Evidence::Contour;
+            of(Framing { scale, shift, evidence, ..Framing::default() }, Upright)
+        };
         assert_eq!(
             of_mask([0.8, 0.8], [0.0, 0.0]),
             "shows everything 0.8 times as large: is its field of view 64 degrees high, not 53.1, or its viewport \
              1.25 x 1.25, not 1 x 1, or its d 0.8, not 1, or its eye farther away, or all of the scene of another size?"
+        );
+        let of_distances =
+            Framing { scale: [0.8; 2], evidence: Evidence::Distances, ..Framing::default() };
+        assert_eq!(
+            of(of_distances, Upright),
+            "shows everything 0.8 times as large: is its field of view 64 degrees high, not 53.1, or its viewport \
+             1.25 x 1.25, not 1 x 1?"
         );
         assert_eq!(
             of_mask([1.0, 1.0], [0.0, 3.0]),

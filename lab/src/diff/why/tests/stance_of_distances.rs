@@ -88,6 +88,30 @@ fn another_eye_that_looks_elsewhere_is_named_from_distances() {
     });
 }
 
+/// Where all is seen from the same place, distances are those of what is seen.
+#[test]
+fn another_size_and_place_of_everything_are_named_from_distances() {
+    for projection in [Projection::Perspective, Projection::Parallel] {
+        with_scene(&coarse_lecture(), [132, 88], projection, |view| {
+            let description = *view.camera.description();
+            let [vw, vh] = description.viewport;
+            for (x, y) in [(1.1, 1.1), (0.8, 0.8), (1.3, 1.3), (1.05, 1.0)] {
+                let viewport = [vw * x, vh * y];
+                let other = CameraDescription { viewport, ..description };
+                let found = finding_of_distances(view, other, |t, _| t);
+                let Finding::Explained(found) = &found else { panic!("{x} {y} {found:?}") };
+                let Framing { scale, shift, evidence, .. } = found[0].convention.framing;
+                assert_eq!((shift, evidence), ([0.0; 2], Evidence::Distances), "{x} {y}");
+                for (scale, factor) in scale.into_iter().zip([x, y]) {
+                    assert!((scale * f64::from(factor) - 1.0).abs() < 1e-4, "{scale} {factor}");
+                }
+                let said = found[0].sentences("A", view.camera).join(" / ");
+                assert!(!said.contains("its eye") && said.contains("its viewport"), "{said}");
+            }
+        });
+    }
+}
+
 /// A wall looks the same from wherever an eye stands before it.
 #[test]
 fn a_wall_tells_no_eye() {
