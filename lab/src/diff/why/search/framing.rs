@@ -14,9 +14,13 @@ use super::{FEW, Search};
 /// So often a framing is measured: each time, pixels round less.
 const MOST_FITS: usize = 6;
 
-/// So often a contour, or what distances end on, is moved, and so often in a row for nothing.
+/// So often a contour is moved, and so often in a row for nothing.
 const MOST_STEPS: usize = 12;
 const MOST_WORSE: usize = 4;
+
+/// So often what distances end on is moved, until it moves by no more than this, a part of the picture's size.
+const MOST_STEPS_OF_DISTANCES: usize = 20;
+const LEAST_STEP: f64 = 1e-10;
 
 /// A mask or distances that differ in fewer pixels tell no four numbers.
 const FEWEST_PIXELS: u64 = 100;
@@ -143,7 +147,7 @@ impl Search<'_> {
         let with = |framing: Framing| convention.with(Change::Framing(framing));
         let mut framing = Framing { evidence: Evidence::Distances, ..framing };
         let mut best = *start;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MOST_STEPS_OF_DISTANCES {
             let next = with(framing);
             let drawn = self.whole(&next);
             let expected = Expected::new(self.view, &next, &drawn);
@@ -157,6 +161,9 @@ impl Search<'_> {
             let of_file = (convention.placement, &encoding);
             let Some(step) = self.step_of_surfaces(&expected, of_file, framing) else { break };
             framing = framing.then(step);
+            if step.scale.iter().all(|scale| (scale - 1.0).abs() < LEAST_STEP) {
+                break;
+            }
         }
         better(start, with_simple_numbers(best, start, |framing| self.drawn_whole(with(framing))))
     }

@@ -29,6 +29,9 @@ const LONGEST: f64 = 0.5;
 /// The step by which slopes are measured.
 const SMALL: f64 = 1e-5;
 
+/// By less than this, a part of the depth or an angle, the surfaces of distances are not moved.
+const LEAST_STEP: f64 = 1e-10;
+
 /// Where the last step was shorter than this, it tells of the next one.
 const NEAR: f64 = 0.05;
 
@@ -68,13 +71,15 @@ impl Search<'_> {
         placed.sort_by_key(|one| (one.convention.placement != Placement::Upright, one.rank()));
         placed.truncate(MOST_PLACEMENTS);
         if matches!(self.observed.values, Values::Mask(_)) {
-            // What is covered elsewhere may be nearer to the inverse of ours, but in most pixels only if it is one.
-            let is_inverted = 2 * self.ours.differing > self.truth.ids.len() as u64;
-            let nothing =
-                if is_inverted { NothingEncoding::Inverted } else { NothingEncoding::Ours };
+            // What is covered elsewhere may be nearer to the inverse of ours. In most pixels it is so only where everything is much
+            // larger, or if it is one.
+            let is_inverse = 2 * self.ours.differing > self.truth.ids.len() as u64;
+            let inverse = is_inverse.then_some(NothingEncoding::Inverted);
             let expected = Expected::new(self.view, &Convention::default(), self.truth);
-            let read = |one: Candidate| self.read(one.convention, &expected, nothing);
-            return placed.into_iter().map(read).collect();
+            let meanings = std::iter::once(NothingEncoding::Ours).chain(inverse);
+            let each = meanings
+                .flat_map(|nothing| placed.iter().map(move |one| (one.convention, nothing)));
+            return each.map(|(one, nothing)| self.read(one, &expected, nothing)).collect();
         }
         if let Values::Distances(numbers) = &self.observed.values {
             let Some(best) = placed.first() else { return Vec::new() };
@@ -154,6 +159,9 @@ impl Search<'_> {
                 }
                 None => Some(step.by.clone()),
             };
+            if is_of_surfaces && step.by.iter().all(|by| by.abs() < LEAST_STEP) {
+                break;
+            }
             let Some(after) = stance.after(&step.by, step.length, self.view.camera) else { break };
             stance = after;
         }
@@ -254,14 +262,15 @@ impl Search<'_> {
     }
 }
 
-/// What distances may stand for, if most of them are numbers of this sign.
-pub(super) fn encodings_of_distances(numbers: &[f64]) -> [DistanceEncoding; 3] {
+/// What distances may stand for, by the sign of most of them.
+fn encodings_of_distances(numbers: &[f64]) -> [DistanceEncoding; 3] {
     use DistanceEncoding::{
         AlongAxis, AlongRay, NegativeAlongAxis, NegativeAlongRay, NegativeT, T,
     };
     let finite = || numbers.iter().filter(|number| number.is_finite());
     let negative = finite().filter(|number| **number < 0.0).count();
-    if 2 * negative > finite().count() {
+    let positive = finite().filter(|number| **number > 0.0).count();
+    if negative > positive {
         [NegativeT, NegativeAlongAxis, NegativeAlongRay]
     } else {
         [T, AlongAxis, AlongRay]

@@ -139,13 +139,7 @@ pub(super) fn of_framing(
         (true, _) if is_alone => cause_of_part([x, y], camera).map(|part| format!(": {part}?")),
         (true, false) => Some(causes_of_size([x, y], evidence, camera)),
         (false, true) if !is_alone => Some(causes_of_shift(by_contour, camera)),
-        (true, true) if by_contour => {
-            let part = cause_of_part([x, y], camera).map(|part| format!("{part}, "));
-            let part = part.unwrap_or_default();
-            Some(format!(
-                ": {part}is its eye another, or is all of the scene moved and of another size?"
-            ))
-        }
+        (true, true) if by_contour => Some(causes_of_size_and_place([x, y], camera)),
         _ => None,
     });
     let all = if is_alone { "the picture" } else { "everything" };
@@ -159,6 +153,14 @@ fn cause_of_part([x, y]: [f64; 2], camera: &Camera) -> Option<String> {
     let question =
         format!("does it draw {columns} x {rows} pixels into an image of {width} x {height}");
     (x <= 1.0 && y <= 1.0).then_some(question)
+}
+
+/// What a contour of another size in another place may come from.
+fn causes_of_size_and_place([x, y]: [f64; 2], camera: &Camera) -> String {
+    let part = cause_of_part([x, y], camera).map(|part| format!("{part}, "));
+    let part = part.unwrap_or_default();
+    let (own, other) = if x == y { ("eye", "size") } else { ("viewport", "shape") };
+    format!(": {part}is its {own} another, or is all of the scene moved and of another {other}?")
 }
 
 fn causes_of_shift(by_contour: bool, camera: &Camera) -> String {
@@ -222,9 +224,9 @@ mod tests {
     #[test]
     fn a_framing_is_told_with_what_may_be_the_cause() {
         let camera = Camera::canonical(12, 16);
-        let of = |framing, placement| of_framing(framing, placement, Some(&camera));
         let said = |scale, shift, is_alone, placement| {
-            of(Framing { scale, shift, is_alone, evidence: Evidence::Primitives }, placement)
+            let framing = Framing { scale, shift, is_alone, ..Framing::default() };
+            of_framing(framing, placement, Some(&camera))
         };
         use Placement::{Upright, UpsideDown};
         assert_eq!(
@@ -250,19 +252,23 @@ mod tests {
             said([0.9998, 1.0], [2.0, 0.02], false, Upright),
             "shows everything 2 pixels too far to the right: is the middle of its viewport not on the axis of its camera?"
         );
-        let of_mask = |scale, shift| {
-            let evidence = Evidence::Contour;
-            of(Framing { scale, shift, evidence, ..Framing::default() }, Upright)
+    }
+
+    #[test]
+    fn a_framing_is_told_with_what_its_evidence_leaves_open() {
+        let camera = Camera::canonical(12, 16);
+        let said = |scale, shift, evidence| {
+            let framing = Framing { scale, shift, evidence, is_alone: false };
+            of_framing(framing, Placement::Upright, Some(&camera))
         };
+        let of_mask = |scale, shift| said(scale, shift, Evidence::Contour);
         assert_eq!(
             of_mask([0.8, 0.8], [0.0, 0.0]),
             "shows everything 0.8 times as large: is its field of view 64 degrees high, not 53.1, or its viewport \
              1.25 x 1.25, not 1 x 1, or its d 0.8, not 1, or its eye farther away, or all of the scene of another size?"
         );
-        let of_distances =
-            Framing { scale: [0.8; 2], evidence: Evidence::Distances, ..Framing::default() };
         assert_eq!(
-            of(of_distances, Upright),
+            said([0.8, 0.8], [0.0, 0.0], Evidence::Distances),
             "shows everything 0.8 times as large: is its field of view 64 degrees high, not 53.1, or its viewport \
              1.25 x 1.25, not 1 x 1?"
         );
@@ -280,6 +286,11 @@ mod tests {
             of_mask([1.2, 1.2], [3.0, 0.0]),
             "shows everything 1.2 times as large, and 3 pixels too far to the right: is its eye another, or is all of the \
              scene moved and of another size?"
+        );
+        assert_eq!(
+            of_mask([1.2, 1.0], [3.0, 0.0]),
+            "shows everything 1.2 times as wide, and 3 pixels too far to the right: is its viewport another, or is all of \
+             the scene moved and of another shape?"
         );
     }
 

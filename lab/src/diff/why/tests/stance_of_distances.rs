@@ -61,6 +61,7 @@ fn another_direction_and_another_up_are_named_from_distances() {
             let with = |target, up| {
                 let orientation = Orientation::LookAt { target, up };
                 let other = CameraDescription { orientation, ..description };
+                // Of the sky, it is 0.
                 stance(view, &finding_of_distances(view, other, |t, _| -t))
             };
             let elsewhere = target + Vec3::new(0.4, 0.2, 0.1);

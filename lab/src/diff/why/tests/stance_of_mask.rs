@@ -137,6 +137,43 @@ fn another_size_and_another_place_are_named_from_a_mask() {
     }
 }
 
+/// Where everything is much larger, most pixels may be wrong.
+#[test]
+fn a_near_eye_is_not_taken_for_an_inverted_mask() {
+    with_scene(&teapot(0.6), [160, 120], Projection::Perspective, |view| {
+        let description = *view.camera.description();
+        let Orientation::LookAt { target, .. } = description.orientation else { panic!() };
+        let eye = target + 0.45 * (description.eye - target);
+        let other = CameraDescription { eye, ..description };
+        let camera = Camera::new(other).unwrap();
+        let mask = |view: &View| file(view, &Convention::default(), false);
+        let (ours, theirs) = (mask(view), mask(&View::new(view.scene, &camera)));
+        let differing = (0..160 * 120).filter(|&at| ours.covered(at) != theirs.covered(at)).count();
+        assert!(2 * differing > 160 * 120, "{differing}");
+        let found = find_conventions(view, &theirs).unwrap().finding;
+        let (stance, said) = named(view, &found).unwrap_or_else(|| panic!("{found:?}"));
+        assert!(stance.eye.abs_diff_eq(eye.as_dvec3(), 0.1), "{said}");
+        assert!(!said.contains("inverted"), "{said}");
+    });
+}
+
+/// The contour of an inverted mask is that of the mask.
+#[test]
+fn another_size_is_named_from_an_inverted_mask() {
+    with_scene(&teapot(0.6), [160, 120], Projection::Perspective, |view| {
+        let description = *view.camera.description();
+        let viewport = description.viewport.map(|side| 0.93 * side);
+        let camera = Camera::new(CameraDescription { viewport, ..description }).unwrap();
+        let mask = file(&View::new(view.scene, &camera), &Convention::default(), false);
+        let inverted: Vec<bool> =
+            (0..160 * 120).map(|at| mask.covered(at) == Some(false)).collect();
+        let inverted = Buffer::new([160, 120], 1, Content::Mask(inverted.into()));
+        let found = find_conventions(view, &inverted).unwrap().finding;
+        let (Framing { scale: [x, y], .. }, said, _) = framed(view, &found);
+        assert!(x == y && (0.93 * x - 1.0).abs() < 0.01 && said.contains("inverted"), "{said}");
+    });
+}
+
 /// A ball is a disc from everywhere.
 #[test]
 fn a_mask_of_a_ball_tells_no_eye_beside_it() {
