@@ -421,6 +421,7 @@ impl Search<'_> {
             best.score.differing * few <= differing && (!is_of_contour || framing.is_of_one_kind())
         });
         if !is_explained {
+            all.extend(self.framed_by_distances());
             all.extend(self.posed());
         }
         let best = possible(&all);

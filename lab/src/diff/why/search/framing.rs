@@ -2,13 +2,13 @@
 
 use super::super::candidate::{Candidate, as_good};
 use super::super::contour::Coverage;
-use super::super::convention::{Change, Convention, Evidence, Framing, Moved, Placement, Stance};
+use super::super::convention::{Change, Convention, Evidence, Framing, Moved, Stance};
 use super::super::encoding::{Encoding, IdEncoding};
 use super::super::expected::{Expected, Score};
 use super::super::fit::{Fit, framing_of_file, framing_of_mask};
 use super::super::observed::Values;
 use super::least_squares::{NormalEquations, Row, solution_of_most};
-use super::marks::{FAR_OF_SURFACE, Landmarks, Way};
+use super::marks::{Approach, FAR_OF_SURFACE, Landmarks, Mark, Way};
 use super::{FEW, Search};
 
 /// So often a framing is measured: each time, pixels round less.
@@ -18,9 +18,8 @@ const MOST_FITS: usize = 6;
 const MOST_STEPS: usize = 12;
 const MOST_WORSE: usize = 4;
 
-/// So often what distances end on is moved, until it moves by no more than this, a part of the picture's size.
+/// So often what distances end on is moved.
 const MOST_STEPS_OF_DISTANCES: usize = 20;
-const LEAST_STEP: f64 = 1e-10;
 
 /// A mask or distances that differ in fewer pixels tell no four numbers.
 const FEWEST_PIXELS: u64 = 100;
@@ -32,15 +31,12 @@ const LONGEST: f64 = 0.5;
 const MOST_PLACEMENTS: usize = 2;
 
 impl Search<'_> {
-    /// Our conventions with the size and the place of the picture that the file shows.
+    /// Our conventions with the size and the place of the picture that ids or a mask show.
     pub(super) fn framed(&self) -> Option<Candidate> {
-        if self.ours.differing < FEWEST_PIXELS && !matches!(self.observed.values, Values::Ids(_)) {
-            return None;
-        }
         match self.observed.values {
             Values::Ids(_) => self.framed_by_primitives(),
             Values::Mask(_) => self.framed_by_contour(),
-            Values::Distances(_) => self.framed_by_distances(),
+            Values::Distances(_) => None,
         }
     }
 
@@ -75,6 +71,9 @@ impl Search<'_> {
 
     /// With more of the scene around it, if that explains a mask; otherwise with nothing around it, if that does.
     fn framed_by_contour(&self) -> Option<Candidate> {
+        if self.ours.differing < FEWEST_PIXELS {
+            return None;
+        }
         let starts = self.starts_from_elsewhere().into_iter();
         let mut found = starts
             .flat_map(|start| [false, true].map(|is_alone| (start, is_alone)))
@@ -129,7 +128,11 @@ impl Search<'_> {
     }
 
     /// Distances of a picture whose contour lies where the file has it, if it has one, and that end on what is seen.
-    fn framed_by_distances(&self) -> Option<Candidate> {
+    pub(super) fn framed_by_distances(&self) -> Option<Candidate> {
+        let is_of_distances = matches!(self.observed.values, Values::Distances(_));
+        if !is_of_distances || self.ours.differing < FEWEST_PIXELS {
+            return None;
+        }
         let starts = self.starts_from_elsewhere();
         let rough = self.fitted(starts.first()?, Framing::default(), Stretch::All);
         let mut framings = vec![rough.convention.framing];
@@ -146,7 +149,7 @@ impl Search<'_> {
         let Candidate { convention, encoding, .. } = *start;
         let with = |framing: Framing| convention.with(Change::Framing(framing));
         let mut framing = Framing { evidence: Evidence::Distances, ..framing };
-        let mut best = *start;
+        let (mut best, mut approach) = (*start, Approach::new());
         for _ in 0..MOST_STEPS_OF_DISTANCES {
             let next = with(framing);
             let drawn = self.whole(&next);
@@ -159,11 +162,13 @@ impl Search<'_> {
                 break;
             }
             let of_file = (convention.placement, &encoding);
-            let Some(step) = self.step_of_surfaces(&expected, of_file, framing) else { break };
-            framing = framing.then(step);
-            if step.scale.iter().all(|scale| (scale - 1.0).abs() < LEAST_STEP) {
+            let stance = Stance::stated(self.view.camera, Moved::All);
+            let marks = self.marks_of_surfaces(&stance, &expected, of_file, framing)?;
+            if !approach.goes_on(&marks) {
                 break;
             }
+            let Some(step) = self.step_of_surfaces(&stance, &marks, framing) else { break };
+            framing = framing.then(step);
         }
         better(start, with_simple_numbers(best, start, |framing| self.drawn_whole(with(framing))))
     }
@@ -171,13 +176,11 @@ impl Search<'_> {
     /// The framing that takes what is seen at the ends of distances to where the file has it, nearly, if they tell all of it.
     fn step_of_surfaces(
         &self,
-        expected: &Expected,
-        of_file: (Placement, &Encoding),
+        stance: &Stance,
+        marks: &[Mark],
         framing: Framing,
     ) -> Option<Framing> {
         let camera = self.view.camera;
-        let stance = Stance::stated(camera, Moved::All);
-        let marks = self.marks_of_surfaces(&stance, expected, of_file, framing)?;
         let clues = marks.iter().filter_map(|mark| {
             let Way::ToSurface { normal, far } = mark.way else { return None };
             let [x, y, depth] = stance.place(mark.point, camera)?;

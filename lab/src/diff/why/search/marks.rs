@@ -23,6 +23,10 @@ const MOST_POINTS: usize = 4000;
 /// A point that is farther from its surface than others, but not by more than this, in pixels, belongs to it.
 pub(super) const FAR_OF_SURFACE: f64 = 1e-3;
 
+/// So much nearer is nearer, and so many steps in a row may take surfaces no nearer.
+const LESS: f64 = 0.9;
+const MOST_WORSE: usize = 6;
+
 /// So many times as far as what is seen of a plane at its contour lies the horizon.
 const HORIZON: f64 = 1e6;
 
@@ -67,6 +71,36 @@ pub(super) enum Way {
     },
     /// The point is this far from the surface on which it should lie, along its normal.
     ToSurface { normal: DVec3, far: f64 },
+}
+
+/// Whether surfaces come nearer to where distances end, step by step.
+pub(super) struct Approach {
+    nearest: f64,
+    /// Steps in a row that took them no nearer.
+    worse: usize,
+}
+
+impl Approach {
+    pub(super) fn new() -> Approach {
+        Approach { nearest: f64::INFINITY, worse: 0 }
+    }
+
+    /// Whether another step is worth it, by how far the middle one of these points is from its surface.
+    pub(super) fn goes_on(&mut self, marks: &[Mark]) -> bool {
+        let far = marks.iter().filter_map(|mark| match mark.way {
+            Way::ToSurface { far, .. } => Some(far.abs()),
+            Way::InPicture { .. } => None,
+        });
+        let mut far: Vec<f64> = far.collect();
+        far.sort_by(f64::total_cmp);
+        let middle = far.get(far.len() / 2).copied().unwrap_or(0.0);
+        if middle < LESS * self.nearest {
+            (self.nearest, self.worse) = (middle, 0);
+        } else {
+            self.worse += 1;
+        }
+        self.worse < MOST_WORSE
+    }
 }
 
 impl Search<'_> {

@@ -10,7 +10,7 @@ use super::super::encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEnco
 use super::super::expected::Expected;
 use super::super::observed::Values;
 use super::least_squares::{NormalEquations, Row, solution_of_most};
-use super::marks::{FAR_OF_SURFACE, Landmarks, Mark, Way};
+use super::marks::{Approach, FAR_OF_SURFACE, Landmarks, Mark, Way};
 use super::{FEW, Search};
 use rayon::prelude::*;
 
@@ -28,9 +28,6 @@ const LONGEST: f64 = 0.5;
 
 /// The step by which slopes are measured.
 const SMALL: f64 = 1e-5;
-
-/// By less than this, a part of the depth or an angle, the surfaces of distances are not moved.
-const LEAST_STEP: f64 = 1e-10;
 
 /// Where the last step was shorter than this, it tells of the next one.
 const NEAR: f64 = 0.05;
@@ -128,6 +125,7 @@ impl Search<'_> {
         let mut best: Option<Candidate> = None;
         let (mut last, mut worse): (Option<Vec<f64>>, usize) = (None, 0);
         let (mut told_by, mut is_told) = (None, false);
+        let mut approach = Approach::new();
         for _ in 0..MOST_STEPS {
             let next = convention.with(Change::Pose(Pose::Measured(stance)));
             next.pose.camera(self.view.camera)?;
@@ -147,7 +145,10 @@ impl Search<'_> {
                 told_by = self.only_object(&marks);
                 is_told = self.tell_all(&landmarks, &stance, &marks);
             }
-            if read.score.differing == 0 || worse == MOST_WORSE {
+            if read.score.differing == 0
+                || worse == MOST_WORSE
+                || is_of_surfaces && !approach.goes_on(&marks)
+            {
                 break;
             }
             let Some(mut step) = self.step(&landmarks, &stance, &marks) else { break };
@@ -159,9 +160,6 @@ impl Search<'_> {
                 }
                 None => Some(step.by.clone()),
             };
-            if is_of_surfaces && step.by.iter().all(|by| by.abs() < LEAST_STEP) {
-                break;
-            }
             let Some(after) = stance.after(&step.by, step.length, self.view.camera) else { break };
             stance = after;
         }

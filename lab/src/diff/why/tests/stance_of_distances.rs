@@ -33,7 +33,7 @@ fn stance(view: &View, finding: &Finding) -> (Stance, u64, String) {
 fn another_eye_is_named_from_distances_with_its_place() {
     with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
         let description = *view.camera.description();
-        for by in [[0.3, 0.0, 0.0], [0.5, -0.2, -1.0], [0.0, 0.05, 0.0]] {
+        for by in [[0.5, -0.2, -1.0], [0.0, 0.05, 0.0]] {
             let eye = description.eye + Vec3::from_array(by);
             let around = CameraDescription { eye, ..description };
             let found = finding_of_distances(view, around, |t, _| t);
@@ -61,7 +61,6 @@ fn another_direction_and_another_up_are_named_from_distances() {
             let with = |target, up| {
                 let orientation = Orientation::LookAt { target, up };
                 let other = CameraDescription { orientation, ..description };
-                // Of the sky, it is 0.
                 stance(view, &finding_of_distances(view, other, |t, _| -t))
             };
             let elsewhere = target + Vec3::new(0.4, 0.2, 0.1);
@@ -96,7 +95,7 @@ fn another_size_and_place_of_everything_are_named_from_distances() {
         with_scene(&coarse_lecture(), [132, 88], projection, |view| {
             let description = *view.camera.description();
             let [vw, vh] = description.viewport;
-            for (x, y) in [(1.1, 1.1), (0.8, 0.8), (1.3, 1.3), (1.05, 1.0)] {
+            for (x, y) in [(1.1, 1.1), (0.8, 0.8), (1.05, 1.0)] {
                 let viewport = [vw * x, vh * y];
                 let other = CameraDescription { viewport, ..description };
                 let found = finding_of_distances(view, other, |t, _| t);
