@@ -50,10 +50,13 @@ impl Candidate {
     }
 }
 
-/// How many choices are not ours. A framing counts twice, and so does a measured pose: it says what is seen, and not why.
+/// How many choices are not ours. A framing counts twice, and so does a measured pose: it says what is seen, and not why. By a contour
+/// they count three times: it tells less than two mistakes that are known.
 pub(super) fn parts(convention: &Convention, encoding: &Encoding) -> usize {
     let is_measured = convention.is_framed() || convention.is_posed();
-    convention.mistakes() + usize::from(is_measured) + encoding.parts()
+    let is_of_contour = convention.is_measured_by_contour();
+    let measured = usize::from(is_measured) + usize::from(is_of_contour);
+    convention.mistakes() + measured + encoding.parts()
 }
 
 /// Whether a hypothesis that leaves `simpler` pixels does as well as one with more parts that leaves `fewest`: the

@@ -311,6 +311,12 @@ impl Convention {
         matches!(self.pose, Pose::Measured(_))
     }
 
+    /// Whether the contour of a mask alone tells its framing, or its eye and its axes.
+    pub(super) fn is_measured_by_contour(&self) -> bool {
+        self.framing.evidence == Evidence::Contour
+            || matches!(self.pose, Pose::Measured(Stance { by_contour: true, .. }))
+    }
+
     /// Whether its eye and all of its axes are known from the file alone.
     pub(super) fn is_freely_posed(&self) -> bool {
         matches!(self.pose, Pose::Measured(Stance { moved: Moved::All, .. }))

@@ -155,16 +155,14 @@ impl Search<'_> {
             let drawn = self.whole(&next);
             let expected = Expected::new(self.view, &next, &drawn);
             let fitted = self.read(next, &expected, encoding.nothing);
-            if fitted.score.differing < best.score.differing {
+            if fitted.score.differing <= best.score.differing {
                 best = fitted;
-            }
-            if best.score.differing == 0 {
-                break;
             }
             let of_file = (convention.placement, &encoding);
             let stance = Stance::stated(self.view.camera, Moved::All);
             let marks = self.marks_of_surfaces(&stance, &expected, of_file, framing)?;
-            if !approach.goes_on(&marks) {
+            // Where all are right, both sides may yet come nearer to one scale.
+            if !approach.goes_on(&marks) || best.score.differing == 0 && !approach.comes_nearer() {
                 break;
             }
             let Some(step) = self.step_of_surfaces(&stance, &marks, framing) else { break };

@@ -101,6 +101,11 @@ impl Approach {
         }
         self.worse < MOST_WORSE
     }
+
+    /// Whether the last step took them nearer.
+    pub(super) fn comes_nearer(&self) -> bool {
+        self.worse == 0
+    }
 }
 
 impl Search<'_> {

@@ -119,7 +119,7 @@ pub(super) fn of_framing(
 ) -> String {
     let Framing { scale: [x, y], shift, is_alone, evidence } = framing;
     let by_contour = evidence == Evidence::Contour;
-    let [wide, high] = [x, y].map(three_digits);
+    let [wide, high] = [x, y].map(times);
     let size = match (wide == high, wide == "1", high == "1") {
         (true, true, _) => None,
         (true, false, _) => Some(format!("{wide} times as large")),
@@ -136,31 +136,63 @@ pub(super) fn of_framing(
         if placement == Placement::Upright { "" } else { " (once the picture is upright)" };
     let beside = if is_alone { ", and nothing around it" } else { "" };
     let cause = camera.and_then(|camera| match (size.is_some(), moved.is_some()) {
-        (true, _) if is_alone => cause_of_part([x, y], camera).map(|part| format!(": {part}?")),
+        (true, _) if is_alone => cause_of_part(framing, camera).map(|part| format!(": {part}?")),
         (true, false) => Some(causes_of_size([x, y], evidence, camera)),
         (false, true) if !is_alone => Some(causes_of_shift(by_contour, camera)),
-        (true, true) if by_contour => Some(causes_of_size_and_place([x, y], camera)),
+        (true, true) if by_contour => Some(causes_of_size_and_place(framing, camera)),
         _ => None,
     });
     let all = if is_alone { "the picture" } else { "everything" };
     format!("shows {all} {what}{turned}{beside}{}", cause.unwrap_or_default())
 }
 
+/// How many times as large something is; 1 where it is nearly as large.
+fn times(scale: f64) -> String {
+    /// Less than this is what rounding leaves.
+    const LEAST: f64 = 5e-4;
+    if (scale - 1.0).abs() < LEAST { "1".into() } else { apart(scale, 1.0)[0].clone() }
+}
+
+/// Two numbers with three digits, or as many as tell them apart.
+fn apart(one: f64, other: f64) -> [String; 2] {
+    let written = |digits: usize| {
+        [one, other].map(|number| {
+            let short = format!("{number:.*e}", digits - 1).parse::<f64>();
+            short.map_or_else(|_| number.to_string(), |short| short.to_string())
+        })
+    };
+    let differ = |digits: &usize| {
+        let [one, other] = written(*digits);
+        one != other
+    };
+    written((3..=6).find(differ).unwrap_or(3))
+}
+
 /// The image that is so much smaller than the one that is asked for.
-fn cause_of_part([x, y]: [f64; 2], camera: &Camera) -> Option<String> {
-    let [width, height] = camera.image();
-    let [columns, rows] = [x * f64::from(width), y * f64::from(height)].map(f64::round);
+fn cause_of_part(framing: Framing, camera: &Camera) -> Option<String> {
+    /// By so much, in pixels, it may stick out, as measured.
+    const ROUNDING: f64 = 0.6;
+    let image @ [width, height] = camera.image();
+    let is_inside = (0..2).all(|axis| {
+        let free = (1.0 - framing.scale[axis]) * f64::from(image[axis]) / 2.0;
+        framing.shift[axis].abs() <= free + ROUNDING
+    });
+    let [columns, rows] = [0, 1].map(|axis| (framing.scale[axis] * f64::from(image[axis])).round());
     let question =
         format!("does it draw {columns} x {rows} pixels into an image of {width} x {height}");
-    (x <= 1.0 && y <= 1.0).then_some(question)
+    is_inside.then_some(question)
 }
 
 /// What a contour of another size in another place may come from.
-fn causes_of_size_and_place([x, y]: [f64; 2], camera: &Camera) -> String {
-    let part = cause_of_part([x, y], camera).map(|part| format!("{part}, "));
+fn causes_of_size_and_place(framing: Framing, camera: &Camera) -> String {
+    let part = cause_of_part(framing, camera).map(|part| format!("{part}, "));
     let part = part.unwrap_or_default();
-    let (own, other) = if x == y { ("eye", "size") } else { ("viewport", "shape") };
-    format!(": {part}is its {own} another, or is all of the scene moved and of another {other}?")
+    let [x, y] = framing.scale;
+    // From nowhere else, and in no other size, is all wider alone.
+    let (eye, other) = if x == y { (" is its eye another,", "size") } else { ("", "shape") };
+    format!(
+        ": {part}are the size and the middle of its viewport others,{eye} or is all of the scene moved and of another {other}?"
+    )
 }
 
 fn causes_of_shift(by_contour: bool, camera: &Camera) -> String {
@@ -168,7 +200,9 @@ fn causes_of_shift(by_contour: bool, camera: &Camera) -> String {
     match (camera.projection(), by_contour) {
         (Projection::Perspective, false) => format!(": {axis}?"),
         (Projection::Perspective, true) => {
-            format!(": {axis}, its direction of view another, or all of the scene moved?")
+            format!(
+                ": {axis}, its eye or its direction of view another, or all of the scene moved?"
+            )
         }
         (Projection::Parallel, false) => format!(": is its eye another, or {axis}?"),
         (Projection::Parallel, true) => {
@@ -180,11 +214,11 @@ fn causes_of_shift(by_contour: bool, camera: &Camera) -> String {
 fn of_shift([right, down]: [f64; 2]) -> Option<String> {
     /// Less than this, in pixels, is what rounding leaves.
     const LEAST: f64 = 0.1;
-    let pixels = |by: f64| if by.abs() == 1.0 { "pixel" } else { "pixels" };
+    let pixels = |by: &str| if by == "1" { "pixel" } else { "pixels" };
     let part = |by: f64, [less, more]: [&str; 2]| {
         let way = if by < 0.0 { less } else { more };
-        (by.abs() >= LEAST)
-            .then(|| format!("{} {} too far {way}", three_digits(by.abs()), pixels(by)))
+        let far = three_digits(by.abs());
+        (by.abs() >= LEAST).then(|| format!("{far} {} too far {way}", pixels(&far)))
     };
     let parts = [part(right, ["to the left", "to the right"]), part(down, ["up", "down"])];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
@@ -195,16 +229,17 @@ fn of_shift([right, down]: [f64; 2]) -> Option<String> {
 /// tells the size.
 fn causes_of_size([x, y]: [f64; 2], evidence: Evidence, camera: &Camera) -> String {
     let [vw, vh] = camera.viewport();
-    let sides = |[vw, vh]: [f64; 2]| format!("{} x {}", three_digits(vw), three_digits(vh));
+    let [wide, high] = [(vw, x), (vh, y)].map(|(side, times)| apart(side / times, side));
     let mut causes =
-        vec![format!("its viewport {}, not {}", sides([vw / x, vh / y]), sides([vw, vh]))];
+        vec![format!("its viewport {} x {}, not {} x {}", wide[0], high[0], wide[1], high[1])];
     if x == y && camera.projection() == Projection::Perspective {
         let d = camera.distance();
         let angle = |vh: f64| three_digits(2.0 * (vh / 2.0 / d).atan().to_degrees());
         let angles = format!("its field of view {} degrees high, not {}", angle(vh / y), angle(vh));
         causes.insert(0, angles);
         if evidence != Evidence::Distances {
-            causes.push(format!("its d {}, not {}", three_digits(d * x), three_digits(d)));
+            let [other, stated] = apart(d * x, d);
+            causes.push(format!("its d {other}, not {stated}"));
             // Where all lies at one distance, this is the same picture.
             causes.push(format!("its eye {}", if x > 1.0 { "nearer" } else { "farther away" }));
         }
@@ -275,23 +310,32 @@ mod tests {
         assert_eq!(
             of_mask([1.0, 1.0], [0.0, 3.0]),
             "shows everything 3 pixels too far down: is the middle of its viewport not on the axis of its camera, its \
-             direction of view another, or all of the scene moved?"
+             eye or its direction of view another, or all of the scene moved?"
         );
+        assert_eq!(
+            of_mask([0.8, 0.8], [1.5, 0.0]),
+            "shows everything 0.8 times as large, and 1.5 pixels too far to the right: does it draw 13 x 10 pixels into an \
+             image of 16 x 12, are the size and the middle of its viewport others, is its eye another, or is all of the scene \
+             moved and of another size?"
+        );
+        // So much smaller, and so far to the right, a part of the picture would lie beside the image.
         assert_eq!(
             of_mask([0.8, 0.8], [3.0, 0.0]),
-            "shows everything 0.8 times as large, and 3 pixels too far to the right: does it draw 13 x 10 pixels into an \
-             image of 16 x 12, is its eye another, or is all of the scene moved and of another size?"
+            "shows everything 0.8 times as large, and 3 pixels too far to the right: are the size and the middle of its \
+             viewport others, is its eye another, or is all of the scene moved and of another size?"
         );
         assert_eq!(
-            of_mask([1.2, 1.2], [3.0, 0.0]),
-            "shows everything 1.2 times as large, and 3 pixels too far to the right: is its eye another, or is all of the \
-             scene moved and of another size?"
+            of_mask([1.2, 1.0], [1.0004, 0.0]),
+            "shows everything 1.2 times as wide, and 1 pixel too far to the right: are the size and the middle of its \
+             viewport others, or is all of the scene moved and of another shape?"
         );
         assert_eq!(
-            of_mask([1.2, 1.0], [3.0, 0.0]),
-            "shows everything 1.2 times as wide, and 3 pixels too far to the right: is its viewport another, or is all of \
-             the scene moved and of another shape?"
+            of_mask([1.004, 1.004], [0.0, 0.0]),
+            "shows everything 1.004 times as large: is its field of view 52.9 degrees high, not 53.1, or its viewport \
+             0.996 x 0.996, not 1 x 1, or its d 1.004, not 1, or its eye nearer, or all of the scene of another size?"
         );
+        assert_eq!(apart(1.0, 1.0), ["1", "1"]);
+        assert_eq!(apart(1.3331, 1.3349), ["1.333", "1.335"]);
     }
 
     #[test]

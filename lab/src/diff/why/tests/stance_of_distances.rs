@@ -102,6 +102,7 @@ fn another_size_and_place_of_everything_are_named_from_distances() {
                 let Finding::Explained(found) = &found else { panic!("{x} {y} {found:?}") };
                 let Framing { scale, shift, evidence, .. } = found[0].convention.framing;
                 assert_eq!((shift, evidence), ([0.0; 2], Evidence::Distances), "{x} {y}");
+                assert_eq!(x == y, scale[0] == scale[1], "{x} {y} {scale:?}");
                 for (scale, factor) in scale.into_iter().zip([x, y]) {
                     assert!((scale * f64::from(factor) - 1.0).abs() < 1e-4, "{scale} {factor}");
                 }
