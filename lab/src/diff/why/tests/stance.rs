@@ -69,18 +69,22 @@ fn another_direction_and_another_up_are_named() {
     }
 }
 
+/// A camera whose eye stands elsewhere and that looks elsewhere, with another `up`.
+pub(super) fn elsewhere(description: CameraDescription) -> CameraDescription {
+    let Orientation::LookAt { target, .. } = description.orientation else { panic!() };
+    let eye = description.eye + Vec3::new(0.15, 0.1, 0.3);
+    let target = target + Vec3::new(0.1, -0.2, 0.0);
+    let orientation = Orientation::LookAt { target, up: Vec3::new(0.1, 1.0, 0.0) };
+    CameraDescription { eye, orientation, ..description }
+}
+
 #[test]
 fn another_eye_that_looks_elsewhere_is_named() {
     with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
-        let description = *view.camera.description();
-        let Orientation::LookAt { target, .. } = description.orientation else { panic!() };
-        let eye = description.eye + Vec3::new(0.15, 0.1, 0.3);
-        let target = target + Vec3::new(0.1, -0.2, 0.0);
-        let orientation = Orientation::LookAt { target, up: Vec3::new(0.1, 1.0, 0.0) };
-        let other = CameraDescription { eye, orientation, ..description };
+        let other = elsewhere(*view.camera.description());
         let (found, left, said) = stance(view, &finding_of_camera(view, other));
         let camera = Camera::new(other).unwrap();
-        assert!(is_near(found.eye, eye.as_dvec3(), 0.01), "{found:?} {left}");
+        assert!(is_near(found.eye, camera.eye().as_dvec3(), 0.01), "{found:?} {left}");
         assert!(is_near(found.axes[0], camera.u(), 0.01), "{found:?} {}", camera.u());
         assert!(said.contains(" along about "), "{said}");
     });

@@ -1,5 +1,6 @@
 //! Distances from another eye, or in another direction.
 
+use super::stance::elsewhere;
 use super::*;
 use crate::common::Orientation;
 use crate::common::glam::{DVec3, Vec3};
@@ -77,14 +78,9 @@ fn another_direction_and_another_up_are_named_from_distances() {
 #[test]
 fn another_eye_that_looks_elsewhere_is_named_from_distances() {
     with_scene(&coarse_lecture(), [132, 88], Projection::Perspective, |view| {
-        let description = *view.camera.description();
-        let Orientation::LookAt { target, .. } = description.orientation else { panic!() };
-        let eye = description.eye + Vec3::new(0.15, 0.1, 0.3);
-        let target = target + Vec3::new(0.1, -0.2, 0.0);
-        let orientation = Orientation::LookAt { target, up: Vec3::new(0.1, 1.0, 0.0) };
-        let other = CameraDescription { eye, orientation, ..description };
+        let other = elsewhere(*view.camera.description());
         let (found, left, said) = stance(view, &finding_of_distances(view, other, |t, _| t));
-        assert!(found.eye.abs_diff_eq(eye.as_dvec3(), 1e-4), "{left} {said}");
+        assert!(found.eye.abs_diff_eq(other.eye.as_dvec3(), 1e-4), "{left} {said}");
     });
 }
 
