@@ -9,7 +9,8 @@ mod stance_of_mask;
 use super::draw::{Rows, draw};
 use super::*;
 use crate::common::frame::NO_PRIMITIVE;
-use crate::common::{Camera, CameraDescription, Primitive, Projection, View};
+use crate::common::glam::Vec3;
+use crate::common::{Camera, CameraDescription, Orientation, Primitive, Projection, View};
 use crate::diff::buffer::{Buffer, Content};
 use crate::formats::source::{GivenFile, InputFile};
 use crate::scenes::{self, BUILT_IN, LoadedScene};
@@ -43,6 +44,11 @@ fn with_scene(loaded: &LoadedScene, image: [u32; 2], projection: Projection, run
     }
     let camera = Camera::new(description).unwrap();
     run(&View::new(&loaded.scene, &camera));
+}
+
+/// The camera with another `look_at` and `up`.
+fn looking_at(description: CameraDescription, target: Vec3, up: Vec3) -> CameraDescription {
+    CameraDescription { orientation: Orientation::LookAt { target, up }, ..description }
 }
 
 /// Whether the search names what was planted, besides nothing but what gives nearly the same picture; or says that

@@ -15,7 +15,7 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// The same, as far as it is a move along a unit vector.
+    /// The same, as far as it is a move along a direction, in lengths of which it counts.
     pub(super) fn along(self, direction: [f64; 2]) -> Row {
         let part = |[x, y]: [f64; 2]| [x * direction[0] + y * direction[1], 0.0];
         let Row { slopes, offset, weight } = self;

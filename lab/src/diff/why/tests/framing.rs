@@ -1,7 +1,6 @@
 //! Pictures of another size or in another place.
 
 use super::*;
-use crate::common::Orientation;
 
 /// What is found in the file of ids whose pixel `(i, j)` shows what `number` says of it.
 pub(super) fn finding(view: &View, number: impl Fn([isize; 2]) -> Option<u64>) -> Finding {

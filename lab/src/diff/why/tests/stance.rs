@@ -2,8 +2,7 @@
 
 use super::framing::{finding, finding_of_camera, only, true_ids};
 use super::*;
-use crate::common::Orientation;
-use crate::common::glam::{DVec3, Vec3};
+use crate::common::glam::DVec3;
 
 /// The stance that is named, how many pixels it leaves, and the sentence.
 fn stance(view: &View, finding: &Finding) -> (Stance, u64, String) {
@@ -46,10 +45,7 @@ fn another_direction_and_another_up_are_named() {
         with_scene(&coarse_lecture(), [132, 88], projection, |view| {
             let description = *view.camera.description();
             let Orientation::LookAt { target, up } = description.orientation else { panic!() };
-            let with = |target, up| {
-                let orientation = Orientation::LookAt { target, up };
-                finding_of_camera(view, CameraDescription { orientation, ..description })
-            };
+            let with = |target, up| finding_of_camera(view, looking_at(description, target, up));
             let elsewhere = target + Vec3::new(0.4, 0.2, 0.1);
             let (found, _, said) = stance(view, &with(elsewhere, up));
             let back = (description.eye - elsewhere).as_dvec3().normalize();
@@ -74,8 +70,8 @@ pub(super) fn elsewhere(description: CameraDescription) -> CameraDescription {
     let Orientation::LookAt { target, .. } = description.orientation else { panic!() };
     let eye = description.eye + Vec3::new(0.15, 0.1, 0.3);
     let target = target + Vec3::new(0.1, -0.2, 0.0);
-    let orientation = Orientation::LookAt { target, up: Vec3::new(0.1, 1.0, 0.0) };
-    CameraDescription { eye, orientation, ..description }
+    let up = Vec3::new(0.1, 1.0, 0.0);
+    looking_at(CameraDescription { eye, ..description }, target, up)
 }
 
 #[test]

@@ -2,8 +2,7 @@
 
 use super::stance::elsewhere;
 use super::*;
-use crate::common::Orientation;
-use crate::common::glam::{DVec3, Vec3};
+use crate::common::glam::DVec3;
 
 /// What is found in the numbers that another camera writes for its distances, by `t` and the direction of the ray.
 fn finding_of_distances(
@@ -60,8 +59,7 @@ fn another_direction_and_another_up_are_named_from_distances() {
             let description = *view.camera.description();
             let Orientation::LookAt { target, up } = description.orientation else { panic!() };
             let with = |target, up| {
-                let orientation = Orientation::LookAt { target, up };
-                let other = CameraDescription { orientation, ..description };
+                let other = looking_at(description, target, up);
                 stance(view, &finding_of_distances(view, other, |t, _| -t))
             };
             let elsewhere = target + Vec3::new(0.4, 0.2, 0.1);

@@ -2,8 +2,7 @@
 
 use super::framing::true_ids;
 use super::*;
-use crate::common::Orientation;
-use crate::common::glam::{DVec3, Vec3};
+use crate::common::glam::DVec3;
 
 /// What is found in the mask that another camera sees, perhaps of another scene.
 fn finding_of_mask(view: &View, scene: &crate::common::Scene, other: CameraDescription) -> Finding {
@@ -64,10 +63,9 @@ fn another_direction_and_another_up_are_named_from_a_mask() {
             let description = *view.camera.description();
             let Orientation::LookAt { target, up } = description.orientation else { panic!() };
             let with = |target, up| {
-                let orientation = Orientation::LookAt { target, up };
-                let other = CameraDescription { orientation, ..description };
+                let other = looking_at(description, target, up);
                 let found = named(view, &finding_of_mask(view, view.scene, other));
-                found.unwrap_or_else(|| panic!("{projection:?} {orientation:?}"))
+                found.unwrap_or_else(|| panic!("{projection:?} {target} {up}"))
             };
             let (stance, said) = with(target, up + Vec3::new(0.2, 0.0, 0.0));
             assert_eq!(stance.moved, Moved::Up, "{projection:?} {said}");
