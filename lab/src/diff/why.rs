@@ -16,6 +16,7 @@ mod evidence;
 mod expected;
 mod fit;
 mod near;
+mod numbering;
 mod observed;
 mod outline;
 mod pixels;

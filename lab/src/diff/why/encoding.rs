@@ -96,6 +96,18 @@ pub enum DistanceEncoding {
     },
 }
 
+impl DistanceEncoding {
+    /// Whether a number of a file is the one that is expected, but for roundings.
+    pub(super) fn holds(self, number: f64, expected: f64) -> bool {
+        let tolerance = match self {
+            // A window depth is stored as `f32`, with 24 bits or fewer.
+            DistanceEncoding::Window { .. } | DistanceEncoding::ReversedWindow { .. } => 1e-5,
+            _ => DEPTH_TOLERANCE * number.abs().max(expected.abs()),
+        };
+        (number - expected).abs() <= tolerance
+    }
+}
+
 /// The number of nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum NothingEncoding {
@@ -106,6 +118,25 @@ pub enum NothingEncoding {
     Number(f64),
     /// The opposite: a mask of what is not covered.
     Inverted,
+}
+
+impl NothingEncoding {
+    /// Whether a mask with this value covers a pixel.
+    pub(super) fn is_covered(self, value: bool) -> bool {
+        value != (self == NothingEncoding::Inverted)
+    }
+
+    /// Whether an id, which is not ours of nothing, stands for nothing.
+    pub(super) fn is_id(self, id: u64) -> bool {
+        #[expect(clippy::cast_precision_loss, reason = "an id that is large is not 0")]
+        let is_number = |number: f64| id as f64 == number;
+        matches!(self, NothingEncoding::Number(number) if is_number(number))
+    }
+
+    /// Whether a distance stands for nothing.
+    pub(super) fn is_distance(self, t: f64) -> bool {
+        !t.is_finite() || self == NothingEncoding::Number(t)
+    }
 }
 
 /// What stands for a far plane at infinity.

@@ -3,12 +3,13 @@
 use super::convention::{Convention, Placement};
 use super::draw::Drawn;
 use super::encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding, linear, window};
+use super::numbering::Numbering;
 use super::observed::{Observed, Values};
 use super::rays::ViewingRays;
 use super::renaming::Renaming;
 use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
-use crate::diff::tolerance::DEPTH_TOLERANCE;
+use std::cell::OnceCell;
 
 /// How far a file differs from a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,6 +28,8 @@ pub(super) struct Expected<'a> {
     pub(super) view: &'a View<'a>,
     pub(super) drawn: &'a Drawn,
     rays: ViewingRays,
+    /// Those by which probes are chosen.
+    seen: OnceCell<Vec<Seen>>,
 }
 
 /// The most pixels by which an encoding is chosen.
@@ -34,7 +37,8 @@ const PROBES: usize = 512;
 
 impl<'a> Expected<'a> {
     pub(super) fn new(view: &'a View<'a>, convention: &Convention, drawn: &'a Drawn) -> Self {
-        Expected { view, drawn, rays: ViewingRays::new(view.camera, convention) }
+        let rays = ViewingRays::new(view.camera, convention);
+        Expected { view, drawn, rays, seen: OnceCell::new() }
     }
 
     /// The encoding under which the file agrees best with the picture, by a few of their pixels.
@@ -45,10 +49,13 @@ impl<'a> Expected<'a> {
         nothing: NothingEncoding,
     ) -> Encoding {
         let base = Encoding { nothing, ..Encoding::default() };
+        if matches!(observed.values, Values::Mask(_)) {
+            return base;
+        }
         let probes = self.probes(observed, placement, nothing);
         let mut encodings = vec![base];
         match &observed.values {
-            Values::Mask(_) => return base,
+            Values::Mask(_) => {}
             Values::Ids(ids) => {
                 let from_one = IdEncoding::CountedFrom(1);
                 let others = [from_one, IdEncoding::FromTheEnd, IdEncoding::OfObjects];
@@ -61,9 +68,7 @@ impl<'a> Expected<'a> {
                 encodings.extend(others.into_iter().map(with));
             }
         }
-        let agree = |encoding: &Encoding| {
-            probes.iter().filter(|probe| self.agrees(observed, probe, encoding)).count()
-        };
+        let agree = |encoding: &Encoding| self.agreeing(observed, &probes, encoding);
         // Of equals the first, which is ours.
         let mut best = (encodings[0], agree(&encodings[0]));
         for encoding in &encodings[1..] {
@@ -82,19 +87,31 @@ impl<'a> Expected<'a> {
         placement: Placement,
         nothing: NothingEncoding,
     ) -> Vec<Probe> {
-        let pixels = self.drawn.ids.len();
         let place = IndexMap::new(placement, self.size());
+        let seen = self.seen.get_or_init(|| self.some_that_are_seen()).iter();
+        let placed = seen.map(|&Seen { pixel, row, column }| Probe {
+            pixel,
+            index: place.index([row, column]),
+            row,
+            column,
+        });
+        let mut found: Vec<Probe> =
+            placed.filter(|probe| observed.covered(probe.index, nothing)).collect();
+        let step = found.len().div_ceil(PROBES);
+        if step > 1 {
+            found = found.into_iter().step_by(step).collect();
+        }
+        found
+    }
+
+    /// Evenly spread pixels, of which the picture covers all.
+    fn some_that_are_seen(&self) -> Vec<Seen> {
+        let (pixels, width) = (self.drawn.ids.len(), self.rays.x.len());
         let step = (pixels / (PROBES * 4)).max(1);
-        let width = self.rays.x.len();
-        let probe = |pixel: usize| {
-            let (row, column) = (self.drawn.rows[pixel / width], pixel % width);
-            let index = place.index([row, column]);
-            let both = self.drawn.ids[pixel] != NO_PRIMITIVE && observed.covered(index, nothing);
-            both.then_some(Probe { pixel, index, row, column })
-        };
-        let found: Vec<Probe> = (0..pixels).step_by(step).filter_map(probe).collect();
-        let step = found.len().div_ceil(PROBES).max(1);
-        found.into_iter().step_by(step).collect()
+        let is_seen = |pixel: &usize| self.drawn.ids[*pixel] != NO_PRIMITIVE;
+        let seen = (0..pixels).step_by(step).filter(is_seen);
+        seen.map(|pixel| Seen { pixel, row: self.drawn.rows[pixel / width], column: pixel % width })
+            .collect()
     }
 
     /// Width and height of the picture.
@@ -153,9 +170,19 @@ impl<'a> Expected<'a> {
 
     /// The number that an encoding writes for the distance at a probe.
     fn number(&self, probe: &Probe, encoding: DistanceEncoding) -> f64 {
-        let t = self.drawn.t[probe.pixel];
+        self.number_at(probe.pixel, [probe.row, probe.column], encoding)
+    }
+
+    /// The number that an encoding writes for the distance in a drawn pixel.
+    fn number_at(
+        &self,
+        pixel: usize,
+        [row, column]: [usize; 2],
+        encoding: DistanceEncoding,
+    ) -> f64 {
+        let t = self.drawn.t[pixel];
         let axis = || t * self.rays.axis().length();
-        let ray = || t * self.rays.ray(probe.row, probe.column).direction.length();
+        let ray = || t * self.rays.ray(row, column).direction.length();
         match encoding {
             DistanceEncoding::T => t,
             DistanceEncoding::AlongAxis => axis(),
@@ -191,36 +218,30 @@ impl<'a> Expected<'a> {
         Some(t).filter(|t| t.is_finite() && *t > 0.0)
     }
 
-    /// Whether the file agrees with the picture at a pixel that both cover.
-    fn agrees(&self, observed: &Observed, probe: &Probe, encoding: &Encoding) -> bool {
+    /// At how many of these pixels, which both cover, the file agrees with the picture.
+    fn agreeing(&self, observed: &Observed, probes: &[Probe], encoding: &Encoding) -> usize {
         match &observed.values {
-            Values::Mask(_) => true,
+            Values::Mask(_) => probes.len(),
             Values::Ids(ids) => {
-                let id = self.drawn.ids[probe.pixel];
-                ids[probe.index] == Some(self.id_number(id, encoding.ids))
+                let numbering = self.numbering(encoding.ids);
+                let agrees = |probe: &&Probe| {
+                    let id = self.drawn.ids[probe.pixel];
+                    ids[probe.index] == Some(numbering.number(id))
+                };
+                probes.iter().filter(agrees).count()
             }
             Values::Distances(t) => {
-                let (number, expected) = (t[probe.index], self.number(probe, encoding.distances));
-                let tolerance = match encoding.distances {
-                    // A window depth is stored as `f32`, with 24 bits or fewer.
-                    DistanceEncoding::Window { .. } | DistanceEncoding::ReversedWindow { .. } => {
-                        1e-5
-                    }
-                    _ => DEPTH_TOLERANCE * number.abs().max(expected.abs()),
-                };
-                (number - expected).abs() <= tolerance
+                let encoding = encoding.distances;
+                let agrees =
+                    |probe: &&Probe| encoding.holds(t[probe.index], self.number(probe, encoding));
+                probes.iter().filter(agrees).count()
             }
         }
     }
 
-    /// The number that stands for a primitive; its id where names are its own.
-    pub(super) fn id_number(&self, id: u32, encoding: IdEncoding) -> u64 {
-        match encoding {
-            IdEncoding::FromZero | IdEncoding::OneToOne => id.into(),
-            IdEncoding::CountedFrom(first) => first.saturating_add(id.into()),
-            IdEncoding::FromTheEnd => self.view.scene.primitive_count() - 1 - u64::from(id),
-            IdEncoding::OfObjects => self.view.scene.locate(id.into()).0 as u64,
-        }
+    /// The numbers that stand for the primitives of the scene.
+    pub(super) fn numbering(&self, encoding: IdEncoding) -> Numbering<'a> {
+        Numbering::new(self.view.scene, encoding)
     }
 
     /// The pixels in which the file differs from the picture, among the drawn rows. Names of a few primitives are no
@@ -281,8 +302,8 @@ impl<'a> Expected<'a> {
         let place = IndexMap::new(placement, self.size());
         let width = self.rays.x.len();
         for (line, &row) in self.drawn.rows.iter().enumerate() {
-            for column in 0..width {
-                tell(line * width + column, place.index([row, column]), [row, column]);
+            for ((column, index), pixel) in place.row(row, width).enumerate().zip(line * width..) {
+                tell(pixel, index, [row, column]);
             }
         }
     }
@@ -294,37 +315,65 @@ impl<'a> Expected<'a> {
         observed: &Observed,
         placement: Placement,
         encoding: &Encoding,
-        mut tell: impl FnMut(usize, bool, bool),
+        tell: impl FnMut(usize, bool, bool),
     ) -> Renaming {
         let mut renaming = Renaming::default();
-        self.each_pixel(placement, |pixel, index, [row, column]| {
-            let id = self.drawn.ids[pixel];
-            let expected = self.is_something(id, observed, encoding);
-            let covered = observed.covered(index, encoding.nothing);
-            let differs = if covered != expected {
-                true
-            } else if !covered {
-                false
-            } else if encoding.ids == IdEncoding::OneToOne
-                && let Values::Ids(ids) = &observed.values
-            {
-                !renaming.holds(id, ids[index])
-            } else {
-                let probe = Probe { pixel, index, row, column };
-                !self.agrees(observed, &probe, encoding)
-            };
-            tell(index, differs, covered != expected);
-        });
+        let (drawn, nothing) = (self.drawn, encoding.nothing);
+        let is_seen = |pixel: &usize| drawn.ids[*pixel] != NO_PRIMITIVE;
+        // What kind of file it is, is asked once, and not in each of the many pixels.
+        match &observed.values {
+            Values::Mask(mask) => {
+                let shown = |index| nothing.is_covered(mask[index]).then_some(());
+                let expected = |pixel, _| Some(pixel).filter(is_seen).map(|_| ());
+                self.compare(placement, shown, expected, |(), ()| true, tell);
+            }
+            Values::Ids(ids) if encoding.ids == IdEncoding::OneToOne => {
+                let shown = |index: usize| ids[index].filter(|&id| !nothing.is_id(id));
+                let expected = |pixel, _| Some(pixel).filter(is_seen).map(|pixel| drawn.ids[pixel]);
+                let agree = |number, id| renaming.holds(id, number);
+                self.compare(placement, shown, expected, agree, tell);
+            }
+            Values::Ids(ids) => {
+                let numbering = self.numbering(encoding.ids);
+                let shown = |index: usize| ids[index].filter(|&id| !nothing.is_id(id));
+                // If 0 is nothing and ids count from 0, the first primitive looks like nothing.
+                let is_zero = nothing == NothingEncoding::Number(0.0);
+                let expected = |pixel, _| {
+                    let seen = Some(pixel).filter(is_seen);
+                    let number = seen.map(|pixel| numbering.number(drawn.ids[pixel]));
+                    number.filter(|&number| !(is_zero && number == 0))
+                };
+                self.compare(placement, shown, expected, |shown, expected| shown == expected, tell);
+            }
+            Values::Distances(t) => {
+                let encoding = encoding.distances;
+                let shown = |index: usize| Some(t[index]).filter(|&t| !nothing.is_distance(t));
+                let expected = |pixel, [row, column]: [usize; 2]| {
+                    let seen = Some(pixel).filter(is_seen);
+                    seen.map(|pixel| self.number_at(pixel, [row, column], encoding))
+                };
+                let agree = |shown, expected| encoding.holds(shown, expected);
+                self.compare(placement, shown, expected, agree, tell);
+            }
+        }
         renaming
     }
 
-    /// Whether the file should show something where a primitive is visible. If 0 is nothing and ids count from 0, the
-    /// first primitive looks like nothing.
-    fn is_something(&self, id: u32, observed: &Observed, encoding: &Encoding) -> bool {
-        let is_zero = matches!(observed.values, Values::Ids(_))
-            && encoding.nothing == NothingEncoding::Number(0.0)
-            && encoding.ids != IdEncoding::OneToOne;
-        id != NO_PRIMITIVE && !(is_zero && self.id_number(id, encoding.ids) == 0)
+    /// Tells of every drawn pixel: its index in the file, whether the two differ, and whether they differ in coverage. `shown` is
+    /// what the file has at an index, `expected` what it should have for a drawn pixel; both are `None` for nothing.
+    fn compare<Shown, Number>(
+        &self,
+        placement: Placement,
+        shown: impl Fn(usize) -> Option<Shown>,
+        expected: impl Fn(usize, [usize; 2]) -> Option<Number>,
+        mut agree: impl FnMut(Shown, Number) -> bool,
+        mut tell: impl FnMut(usize, bool, bool),
+    ) {
+        self.each_pixel(placement, |pixel, index, at| match (shown(index), expected(pixel, at)) {
+            (Some(shown), Some(expected)) => tell(index, !agree(shown, expected), false),
+            (None, None) => tell(index, false, false),
+            _ => tell(index, true, true),
+        });
     }
 }
 
@@ -340,6 +389,15 @@ pub(super) fn score_of_truth(
     }
     let expected = Expected::new(view, &Convention::default(), truth);
     expected.score(observed, Placement::Upright, &Encoding::default())
+}
+
+/// A drawn pixel that shows something.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    /// The index among the drawn pixels.
+    pixel: usize,
+    row: usize,
+    column: usize,
 }
 
 /// A pixel of the picture and of the file.
@@ -382,6 +440,16 @@ impl IndexMap {
     fn index(&self, [i, j]: [usize; 2]) -> usize {
         (self.base + i as isize * self.per_row + j as isize * self.per_column) as usize
     }
+
+    /// The indices of a row of the picture, from its first column on.
+    fn row(&self, i: usize, width: usize) -> impl Iterator<Item = usize> {
+        let (first, per_column) = (self.index([i, 0]), self.per_column);
+        (0..width).scan(first, move |next, _| {
+            let index = *next;
+            *next = index.wrapping_add_signed(per_column);
+            Some(index)
+        })
+    }
 }
 
 #[cfg(test)]
@@ -397,6 +465,10 @@ mod tests {
             for index in 0..width * height {
                 let pixel = placement.pixel([index / stride, index % stride], size);
                 assert_eq!(place.index(pixel), index, "{placement:?}");
+            }
+            for i in 0..height {
+                let row = (0..width).map(|j| place.index([i, j]));
+                assert!(place.row(i, width).eq(row), "{placement:?}");
             }
         }
     }

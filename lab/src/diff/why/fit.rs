@@ -89,6 +89,7 @@ pub(super) fn seen_in_both(
     let [width, height] = expected.size();
     #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
     let at = |index: usize, side: usize| index as f64 + 0.5 - side as f64 / 2.0;
+    let numbering = expected.numbering(encoding.ids);
     let mut ours = BTreeMap::<u64, (u32, Spot)>::new();
     let mut theirs = BTreeMap::<u64, Spot>::new();
     expected.each_pixel(placement, |pixel, index, [row, column]| {
@@ -96,7 +97,7 @@ pub(super) fn seen_in_both(
         let is_at_border = [row, column].contains(&0) || row + 1 == height || column + 1 == width;
         let id = expected.drawn.ids[pixel];
         if id != NO_PRIMITIVE {
-            let number = expected.id_number(id, encoding.ids);
+            let number = numbering.number(id);
             let (_, spot) = ours.entry(number).or_insert((id, Spot::default()));
             spot.add(place, is_at_border);
         }

@@ -41,20 +41,12 @@ impl Observed {
         Some(Observed { size: buffer.size().map(|side| side as usize), values })
     }
 
+    #[inline]
     pub(super) fn covered(&self, index: usize, nothing: NothingEncoding) -> bool {
-        match (&self.values, nothing) {
-            (Values::Mask(mask), NothingEncoding::Inverted) => !mask[index],
-            (Values::Mask(mask), _) => mask[index],
-            (Values::Ids(ids), NothingEncoding::Number(number)) =>
-            {
-                #[expect(clippy::cast_precision_loss, reason = "an id that is large is not 0")]
-                ids[index].is_some_and(|id| id as f64 != number)
-            }
-            (Values::Ids(ids), _) => ids[index].is_some(),
-            (Values::Distances(t), NothingEncoding::Number(number)) => {
-                t[index].is_finite() && t[index] != number
-            }
-            (Values::Distances(t), _) => t[index].is_finite(),
+        match &self.values {
+            Values::Mask(mask) => nothing.is_covered(mask[index]),
+            Values::Ids(ids) => ids[index].is_some_and(|id| !nothing.is_id(id)),
+            Values::Distances(t) => !nothing.is_distance(t[index]),
         }
     }
 

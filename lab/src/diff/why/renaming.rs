@@ -21,8 +21,7 @@ impl Renaming {
         renamed >= 2 && 2 * renamed >= self.forth.len() && 4 * nameless <= self.forth.len()
     }
 
-    pub(super) fn holds(&mut self, id: u32, name: Option<u64>) -> bool {
-        let Some(name) = name else { return false };
+    pub(super) fn holds(&mut self, id: u32, name: u64) -> bool {
         match (self.forth.entry(id), self.back.entry(name)) {
             (Entry::Vacant(forth), Entry::Vacant(back)) => {
                 forth.insert(name);
@@ -50,7 +49,7 @@ mod tests {
     fn a_few_exchanged_ids_are_no_numbering() {
         let named = |names: &[(u32, u64)]| {
             let mut renaming = Renaming::default();
-            names.iter().for_each(|&(id, name)| _ = renaming.holds(id, Some(name)));
+            names.iter().for_each(|&(id, name)| _ = renaming.holds(id, name));
             renaming.is_general()
         };
         assert!(named(&[(0, 5), (1, 3), (2, 2)]));
@@ -62,7 +61,7 @@ mod tests {
     fn one_number_for_two_primitives_is_no_numbering() {
         let general = |primitives: u32, name: fn(u32) -> u64| {
             let mut renaming = Renaming::default();
-            (0..primitives).for_each(|id| _ = renaming.holds(id, Some(name(id))));
+            (0..primitives).for_each(|id| _ = renaming.holds(id, name(id)));
             renaming.is_general()
         };
         assert!(general(12, |id| u64::from(11 - id)));
@@ -75,10 +74,10 @@ mod tests {
     #[test]
     fn a_renaming_is_held_to_its_first_names() {
         let mut renaming = Renaming::default();
-        assert!(!renaming.holds(3, Some(7)));
-        assert!(renaming.holds(3, Some(7)));
-        assert!(!renaming.holds(4, Some(7)));
-        assert!(!renaming.holds(3, Some(8)));
-        assert!(renaming.holds(5, Some(5)));
+        assert!(!renaming.holds(3, 7));
+        assert!(renaming.holds(3, 7));
+        assert!(!renaming.holds(4, 7));
+        assert!(!renaming.holds(3, 8));
+        assert!(renaming.holds(5, 5));
     }
 }
