@@ -1,7 +1,7 @@
 //! How far a sample lies from what decides it, in pixels: an edge, the outline of a sphere, a horizon, the line where two
 //! primitives meet.
 
-use super::outline::{Linear, plane_distance};
+use super::outline::{Linear, PlaneDistance};
 use super::rays::ViewingRays;
 use crate::common::glam::DVec3;
 use crate::common::{Judge, Primitive, Projection, Ray};
@@ -48,7 +48,7 @@ impl<'a> SampleDistances<'a> {
 
     /// The distance to the horizon of a plane; infinite for a parallel camera, which sees none.
     pub(super) fn to_horizon(self, point: DVec3, normal: DVec3) -> f64 {
-        let (_, along) = plane_distance(point, normal, normal.length(), self.rays);
+        let along = PlaneDistance::of_plane(point, normal, normal.length(), self.rays).denominator;
         let pixels = self.to_zero(&along);
         if pixels.is_nan() { f64::INFINITY } else { pixels }
     }

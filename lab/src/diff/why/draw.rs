@@ -5,13 +5,14 @@
 
 use super::convention::{Convention, Depth, Edges, Faces, Look, Omission, Part};
 use super::outline::{
-    Area, TriangleOutline, area_of_sphere, area_of_triangle, plane_distance, whole,
+    Area, PlaneDistance, TriangleOutline, area_of_sphere, area_of_triangle, whole,
 };
 use super::rays::ViewingRays;
 use crate::common::exact::{CachedJudge, Comparison, Side};
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::DVec3;
 use crate::common::{Judge, Primitive, Projection, Ray, Sign, View};
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -183,7 +184,7 @@ impl Canvas<'_> {
                     Faces::FrontCulled => outline.is_front,
                 };
                 if !culled {
-                    self.add_triangle(id, primitive, &outline, &area);
+                    self.add_triangle((id, primitive, corners), &outline, &area);
                 }
             }
             Primitive::Sphere { center, radius } => {
@@ -193,8 +194,8 @@ impl Canvas<'_> {
                 });
             }
             Primitive::Plane { point, normal } => {
-                let (numerator, denominator) =
-                    plane_distance(*point, *normal, normal.length(), &self.rays);
+                let PlaneDistance { numerator, denominator } =
+                    PlaneDistance::of_plane(*point, *normal, normal.length(), &self.rays);
                 let area = whole(&self.rays);
                 self.fill(id, primitive, &area, |canvas, row, column| {
                     let (x, y) = (canvas.rays.x[column], canvas.rays.y[row]);
@@ -243,17 +244,20 @@ impl Canvas<'_> {
 
     fn add_triangle(
         &mut self,
-        id: u32,
-        primitive: &Primitive,
+        (id, primitive, corners): (u32, &Primitive, &[DVec3; 3]),
         outline: &TriangleOutline,
         area: &Area,
     ) {
+        // Many triangles are so small that they cover no sample.
+        let distance = OnceCell::new();
         for index in self.rows_of(area) {
             let row = self.drawn.rows[index];
             let y = self.rays.y[row];
             for column in self.columns_of(outline, y, area) {
                 let x = self.rays.x[column];
-                let rounded = rounded_triangle(outline, x, y);
+                let distance =
+                    || distance.get_or_init(|| PlaneDistance::of_triangle(corners, &self.rays));
+                let rounded = rounded_triangle(outline, distance, [x, y]);
                 self.keep(id, primitive, [index, column], rounded);
             }
         }
@@ -395,7 +399,11 @@ impl Canvas<'_> {
     }
 }
 
-fn rounded_triangle(outline: &TriangleOutline, x: f64, y: f64) -> Rounded {
+fn rounded_triangle<'a>(
+    outline: &TriangleOutline,
+    distance: impl FnOnce() -> &'a PlaneDistance,
+    [x, y]: [f64; 2],
+) -> Rounded {
     let mut certain = true;
     for edge in &outline.edges {
         let value = edge.at(x, y);
@@ -404,7 +412,7 @@ fn rounded_triangle(outline: &TriangleOutline, x: f64, y: f64) -> Rounded {
         }
         certain &= value > edge.error;
     }
-    let (t, error) = outline.t(x, y);
+    let (t, error) = distance().t(x, y);
     if certain && t > error {
         Rounded::Inside(t, error)
     } else if certain && t < -error {

@@ -2,7 +2,7 @@
 
 use super::distances::slope_of;
 use super::outline::{
-    Area, Linear, TriangleOutline, area_of_sphere, area_of_triangle, plane_distance, whole,
+    Area, Linear, PlaneDistance, TriangleOutline, area_of_sphere, area_of_triangle, whole,
 };
 use super::rays::ViewingRays;
 use crate::common::{Judge, Primitive, View};
@@ -94,7 +94,8 @@ impl Region {
                 (area_of_sphere(*center, *radius, rays, reach.ceil()), Region::Sphere)
             }
             Primitive::Plane { point, normal } => {
-                let (_, along) = plane_distance(*point, *normal, normal.length(), rays);
+                let along =
+                    PlaneDistance::of_plane(*point, *normal, normal.length(), rays).denominator;
                 (whole(rays), Region::Plane(along, reach * slope_of(&along, spacing)))
             }
         })

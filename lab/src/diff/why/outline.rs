@@ -44,9 +44,6 @@ fn at_least_length(v: DVec3) -> f64 {
 pub(super) struct TriangleOutline {
     /// `E_ab`, `E_bc`, `E_ca`, with positive values inside.
     pub(super) edges: [Linear; 3],
-    /// The distance `t` is the quotient of these two.
-    pub(super) numerator: Linear,
-    pub(super) denominator: Linear,
     /// Whether the corners are seen counter-clockwise.
     pub(super) is_front: bool,
 }
@@ -55,11 +52,10 @@ impl TriangleOutline {
     /// The outline of a triangle `abc`; `None` if the triangle is seen edge-on.
     pub(super) fn new(corners: &[DVec3; 3], rays: &ViewingRays) -> Option<TriangleOutline> {
         let [a, b, c] = *corners;
-        let normal = (b - a).cross(c - a);
         let axis = rays.axis();
         let facing = match rays.projection {
             Projection::Perspective => a.dot(b.cross(c)),
-            Projection::Parallel => normal.dot(axis),
+            Projection::Parallel => (b - a).cross(c - a).dot(axis),
         };
         let bound = match rays.projection {
             Projection::Perspective => at_least_length(a) * at_least_length(b) * at_least_length(c),
@@ -80,13 +76,61 @@ impl TriangleOutline {
             let edge = edge_function(p, q, rays);
             if negative { edge.negated() } else { edge }
         };
-        let (numerator, denominator) = distance(a, b, c, rays);
-        Some(TriangleOutline {
-            edges: [edge(a, b), edge(b, c), edge(c, a)],
-            numerator,
-            denominator,
-            is_front: negative,
-        })
+        let edges = [edge(a, b), edge(b, c), edge(c, a)];
+        Some(TriangleOutline { edges, is_front: negative })
+    }
+}
+
+/// The distance `t` of a plane: the quotient of two functions of the viewport.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlaneDistance {
+    pub(super) numerator: Linear,
+    pub(super) denominator: Linear,
+}
+
+impl PlaneDistance {
+    /// The distance of the plane of a triangle `abc`: `t = n·(a − O)/(n·D)`.
+    pub(super) fn of_triangle(&[a, b, c]: &[DVec3; 3], rays: &ViewingRays) -> PlaneDistance {
+        let normal = (b - a).cross(c - a);
+        let area = at_least_length(b - a) * at_least_length(c - a);
+        PlaneDistance::of_plane(a, normal, area, rays)
+    }
+
+    /// The same for a plane through `point`; `size` bounds the length of the normal, rounded.
+    pub(super) fn of_plane(
+        point: DVec3,
+        normal: DVec3,
+        size: f64,
+        rays: &ViewingRays,
+    ) -> PlaneDistance {
+        let (axis, extent) = (rays.axis(), rays.extent());
+        let constant = |value: f64, length: f64| Linear {
+            constant: value,
+            along_x: 0.0,
+            along_y: 0.0,
+            error: size * length * RELATIVE_ERROR + FLOOR,
+        };
+        let along = |value: f64, length: f64, sign: f64| Linear {
+            along_x: sign * normal.dot(rays.u),
+            along_y: sign * normal.dot(rays.v),
+            ..constant(value, length + extent)
+        };
+        let (to_plane, along_axis) = (normal.dot(point), normal.dot(axis));
+        let (numerator, denominator) = match (rays.projection, rays.spread) {
+            (Projection::Perspective, _) => (
+                constant(to_plane, at_least_length(point)),
+                along(along_axis, at_least_length(axis), 1.0),
+            ),
+            (Projection::Parallel, true) => (
+                along(to_plane, at_least_length(point), -1.0),
+                constant(along_axis, at_least_length(axis)),
+            ),
+            (Projection::Parallel, false) => (
+                constant(to_plane, at_least_length(point)),
+                constant(along_axis, at_least_length(axis)),
+            ),
+        };
+        PlaneDistance { numerator, denominator }
     }
 
     /// The distance `t` at a point of the viewport, and a bound for its error.
@@ -102,6 +146,7 @@ impl TriangleOutline {
 }
 
 /// `det(p − O, q − O, D)` as a function of the viewport.
+#[inline]
 fn edge_function(p: DVec3, q: DVec3, rays: &ViewingRays) -> Linear {
     let (axis, extent) = (rays.axis(), rays.extent());
     let cross = p.cross(q);
@@ -134,49 +179,6 @@ fn edge_function(p: DVec3, q: DVec3, rays: &ViewingRays) -> Linear {
     }
 }
 
-/// The numerator and the denominator of `t = n·(a − O)/(n·D)`.
-fn distance(a: DVec3, b: DVec3, c: DVec3, rays: &ViewingRays) -> (Linear, Linear) {
-    let normal = (b - a).cross(c - a);
-    let area = at_least_length(b - a) * at_least_length(c - a);
-    plane_distance(a, normal, area, rays)
-}
-
-/// The same for a plane through `point`; `size` bounds the length of the normal, rounded.
-pub(super) fn plane_distance(
-    point: DVec3,
-    normal: DVec3,
-    size: f64,
-    rays: &ViewingRays,
-) -> (Linear, Linear) {
-    let (axis, extent) = (rays.axis(), rays.extent());
-    let constant = |value: f64, length: f64| Linear {
-        constant: value,
-        along_x: 0.0,
-        along_y: 0.0,
-        error: size * length * RELATIVE_ERROR + FLOOR,
-    };
-    let along = |value: f64, length: f64, sign: f64| Linear {
-        along_x: sign * normal.dot(rays.u),
-        along_y: sign * normal.dot(rays.v),
-        ..constant(value, length + extent)
-    };
-    let (to_plane, along_axis) = (normal.dot(point), normal.dot(axis));
-    match (rays.projection, rays.spread) {
-        (Projection::Perspective, _) => (
-            constant(to_plane, at_least_length(point)),
-            along(along_axis, at_least_length(axis), 1.0),
-        ),
-        (Projection::Parallel, true) => (
-            along(to_plane, at_least_length(point), -1.0),
-            constant(along_axis, at_least_length(axis)),
-        ),
-        (Projection::Parallel, false) => (
-            constant(to_plane, at_least_length(point)),
-            constant(along_axis, at_least_length(axis)),
-        ),
-    }
-}
-
 /// The pixels of a rectangle: rows and columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Area {
@@ -186,19 +188,26 @@ pub(super) struct Area {
 
 /// The pixels whose samples a triangle may cover, and `margin` pixels around them.
 pub(super) fn area_of_triangle(corners: &[DVec3; 3], rays: &ViewingRays, margin: f64) -> Area {
-    let places = corners.map(|corner| project(corner, rays));
-    if places.iter().all(|place| matches!(place, Place::Behind)) {
-        return NO_AREA;
-    }
     let [mut low, mut high] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    for place in places {
-        let Place::Ahead(at) = place else { return whole(rays) };
-        for axis in 0..2 {
-            low[axis] = low[axis].min(at[axis]);
-            high[axis] = high[axis].max(at[axis]);
+    let [mut ahead, mut behind] = [0, 0];
+    for corner in corners {
+        match project(*corner, rays) {
+            Place::Ahead(at) => {
+                ahead += 1;
+                for axis in 0..2 {
+                    low[axis] = low[axis].min(at[axis]);
+                    high[axis] = high[axis].max(at[axis]);
+                }
+            }
+            Place::Behind => behind += 1,
+            Place::Beside => {}
         }
     }
-    within(low, high, rays, margin)
+    match [ahead, behind] {
+        [3, _] => within(low, high, rays, margin),
+        [_, 3] => NO_AREA,
+        _ => whole(rays),
+    }
 }
 
 /// The same for a sphere.
@@ -238,13 +247,9 @@ enum Place<T> {
 
 impl<T> Place<T> {
     /// The place of what lies between two depths along the axis; `length` bounds its distance from the eye.
-    fn new(
-        [near, far]: [f64; 2],
-        length: f64,
-        rays: &ViewingRays,
-        ahead: impl FnOnce() -> T,
-    ) -> Self {
-        let clear = length / rays.distance.abs() * 1e-9;
+    fn new([near, far]: [f64; 2], length: f64, ahead: impl FnOnce() -> T) -> Self {
+        // At a smaller part of its distance, a depth is not clear of the eye's plane.
+        let clear = length * 1e-9;
         if near > clear {
             Place::Ahead(ahead())
         } else if far < -clear {
@@ -261,15 +266,23 @@ impl<T> Place<T> {
 }
 
 /// The place of a point.
+#[inline]
 fn project(point: DVec3, rays: &ViewingRays) -> Place<[f64; 2]> {
     let place = [point.dot(rays.u), point.dot(rays.v)];
     if rays.projection == Projection::Parallel {
         return Place::parallel(rays, place);
     }
-    // point = t·D: its depth along the axis is t·d.
-    let depth = -point.dot(rays.w) / rays.distance;
-    let length = at_least_length(point);
-    Place::new([depth, depth], length, rays, || place.map(|at| at / depth))
+    let depth = depth_along_axis(point, rays);
+    Place::new([depth, depth], at_least_length(point), || {
+        // The viewport lies at depth |d|.
+        let scale = rays.distance.abs() / depth;
+        place.map(|at| at * scale)
+    })
+}
+
+/// How deep a point lies in the direction of view.
+fn depth_along_axis(point: DVec3, rays: &ViewingRays) -> f64 {
+    -point.dot(rays.w) * rays.distance.signum()
 }
 
 /// The place of a ball: its least and its largest `x` and `y`.
@@ -279,9 +292,10 @@ fn project_ball(point: DVec3, radius: f64, rays: &ViewingRays) -> Place<[[f64; 2
         let ends = [place.map(|at| at - radius), place.map(|at| at + radius)];
         return Place::parallel(rays, ends);
     }
-    let depth = -point.dot(rays.w) / rays.distance;
-    let [near, far] = [-1.0, 1.0].map(|side| depth + side * radius / rays.distance.abs());
-    Place::new([near, far], at_least_length(point) + radius, rays, || {
+    let depth = depth_along_axis(point, rays);
+    let ends = [depth - radius, depth + radius];
+    Place::new(ends, at_least_length(point) + radius, || {
+        let [near, far] = ends.map(|depth| depth / rays.distance.abs());
         let low = place.map(|at| ((at - radius) / near).min((at - radius) / far));
         let high = place.map(|at| ((at + radius) / near).max((at + radius) / far));
         [low, high]
@@ -305,7 +319,7 @@ mod tests {
         assert_eq!(at(-0.1, -0.1), [1, 1, 1]);
         assert_eq!(at(0.2, 0.2), [1, -1, 1]);
         assert_eq!(at(0.0, 0.0), [1, 0, 1]);
-        assert_eq!(outline.t(-0.1, -0.1).0, 2.0);
+        assert_eq!(PlaneDistance::of_triangle(&corners, &rays).t(-0.1, -0.1).0, 2.0);
         let area = area_of_triangle(&corners, &rays, 0.0);
         assert_eq!(area, Area { rows: 2..6, columns: 2..6 });
     }

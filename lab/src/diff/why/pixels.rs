@@ -10,7 +10,7 @@ use super::draw::{Drawn, Rows, covers, draw};
 use super::encoding::NothingEncoding;
 use super::near::near_primitives;
 use super::observed::{Observed, Values};
-use super::outline::TriangleOutline;
+use super::outline::{PlaneDistance, TriangleOutline};
 use super::rays::ViewingRays;
 use super::reason::{Reason, ReasonKind, TieRules};
 use super::search::Explanation;
@@ -335,8 +335,11 @@ impl<'a> Finder<'a> {
         let [shown, id] = [shown, id].map(|id| self.view.primitive(id.into()));
         let t = self.judge.distance(&id, sample.ray());
         match &shown {
-            Primitive::Triangle(corners) => TriangleOutline::new(corners, &self.rays)
-                .is_some_and(|outline| outline.t(sample.distances.x, sample.distances.y).0 <= t),
+            Primitive::Triangle(corners) => {
+                let is_edge_on = TriangleOutline::new(corners, &self.rays).is_none();
+                let plane = PlaneDistance::of_triangle(corners, &self.rays);
+                !is_edge_on && plane.t(sample.distances.x, sample.distances.y).0 <= t
+            }
             Primitive::Sphere { center, .. } => {
                 let Ray { origin, direction } = *sample.ray();
                 (*center - origin).dot(direction) / direction.length_squared() <= t

@@ -5,6 +5,7 @@
 //! as each of them explains at least half of what is left. A change that explains less is left out again. The file itself
 //! tells planes, what is not drawn, the size and the place of the whole picture, and the eye and the axes from which it is seen so.
 
+mod explanations;
 mod framing;
 mod least_squares;
 mod marks;
@@ -24,6 +25,7 @@ use crate::diff::buffer::Buffer;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::collections::HashSet;
+use std::sync::OnceLock;
 
 /// What a search found.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,6 +135,7 @@ pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchEr
         placements: &placements,
         truth: &truth,
         ours,
+        on_some_rows: OnceLock::new(),
     };
     Ok(Findings { pixels, differing: ours.differing, finding: search.finding() })
 }
@@ -149,6 +152,8 @@ const MOST_ADDED: usize = 3;
 
 /// One of so many differing pixels may be left where the eye is not sought.
 const FEW: u64 = 50;
+/// The same where a contour alone tells another size or place.
+const FEW_BY_CONTOUR: u64 = 1000;
 
 /// The most explanations that are named.
 const MOST_EXPLANATIONS: usize = 6;
@@ -161,6 +166,8 @@ struct Search<'a> {
     truth: &'a Drawn,
     /// How far the file is from the true picture.
     ours: Score,
+    /// All that was held against some rows to find the finalists.
+    on_some_rows: OnceLock<Vec<Candidate>>,
 }
 
 impl Search<'_> {
@@ -210,7 +217,11 @@ impl Search<'_> {
     }
 
     /// The pixels that differ under a convention in some rows, with the best reading of the file.
-    fn on_some_rows(&self, convention: Convention) -> u64 {
+    fn differing_on_some_rows(&self, convention: Convention) -> u64 {
+        let mut known = self.on_some_rows.get().into_iter().flatten();
+        if let Some(known) = known.find(|one| one.convention == convention) {
+            return known.score.differing;
+        }
         let upright = Convention { placement: Placement::Upright, ..convention };
         let drawn = self.drawn(&upright, self.some_rows());
         let placed = self.placed(upright, &drawn).into_iter();
@@ -262,6 +273,7 @@ impl Search<'_> {
             (candidate.score.coverage, parts(&candidate.convention, &candidate.encoding))
         });
         choose(&candidates);
+        self.on_some_rows.set(candidates).expect("the finalists are found once");
         chosen.par_iter().map(|convention| self.drawn_whole(*convention)).collect()
     }
 
@@ -417,7 +429,7 @@ impl Search<'_> {
         let is_explained = possible(&all).is_some_and(|best| {
             let framing = best.convention.framing;
             let is_of_contour = framing.evidence == Evidence::Contour;
-            let few = if is_of_contour { 1000 } else { FEW };
+            let few = if is_of_contour { FEW_BY_CONTOUR } else { FEW };
             best.score.differing * few <= differing && (!is_of_contour || framing.is_of_one_kind())
         });
         if !is_explained {
@@ -448,13 +460,15 @@ impl Search<'_> {
             }
             let taken: HashSet<usize> =
                 best.convention.changes().into_iter().map(Change::axis).collect();
-            let on_rows = self.on_some_rows(best.convention);
+            let on_rows = self.differing_on_some_rows(best.convention);
             let mut added: Vec<Candidate> = changes
                 .par_iter()
                 .filter(|change| !taken.contains(&change.axis()))
                 .map(|&change| (change, best.convention.with(change)))
                 // What makes some rows no better is not drawn as a whole; few samples lie on ties.
-                .filter(|(change, with)| !change.is_coarse() || self.on_some_rows(*with) < on_rows)
+                .filter(|(change, with)| {
+                    !change.is_coarse() || self.differing_on_some_rows(*with) < on_rows
+                })
                 .map(|(_, with)| self.drawn_whole(with))
                 .collect();
             added.extend(self.with_suggestions(&best));
@@ -524,74 +538,5 @@ impl Search<'_> {
             }
         }
         simpler
-    }
-
-    /// The explanations that leave as few pixels as the best one, simplest first.
-    fn best(&self, candidates: &[Candidate], ours: Score) -> Vec<Explanation> {
-        let differing = ours.differing;
-        let parts = |one: &Candidate| parts(&one.convention, &one.encoding);
-        // Our own conventions explain nothing.
-        let others =
-            || candidates.iter().filter(|one| parts(one) > 0 && self.may_explain(one, ours));
-        let fewest = others().map(|one| one.score.differing).min().unwrap_or(differing);
-        // A picture tells roughly where a plane lies: one that clips does as well as a part that is blank.
-        let best = others().min_by_key(|one| one.rank());
-        let is_of_part = best.is_some_and(|best| best.convention.leaves_part_blank());
-        let is_rival = |one: &Candidate| {
-            is_of_part && one.convention.clips() && one.score.differing <= fewest + differing / 100
-        };
-        let good =
-            |one: &&Candidate| as_good(one.score.differing, fewest, differing) || is_rival(one);
-        let simplest = others().filter(good).map(parts).min();
-        let is_simplest = |one: &&Candidate| Some(parts(one)) == simplest;
-        let mut chosen: Vec<Candidate> =
-            others().filter(good).filter(is_simplest).copied().collect();
-        chosen.sort_by_key(Candidate::rank);
-        let least = chosen.first().map_or(0, |one| one.score.differing);
-        let mut explanations: Vec<Explanation> = Vec::new();
-        for one in chosen {
-            let is_known = explanations
-                .iter()
-                .any(|other| other.convention == one.convention && other.encoding == one.encoding);
-            let is_near = one.score.differing <= least + differing / 1000 || is_rival(&one);
-            if is_near && !is_known && explanations.len() < MOST_EXPLANATIONS {
-                explanations.push(self.explanation(&one, differing));
-            }
-        }
-        explanations
-    }
-
-    fn explanation(&self, candidate: &Candidate, differing: u64) -> Explanation {
-        let Candidate { convention, encoding, score } = *candidate;
-        Explanation {
-            convention,
-            encoding,
-            explained: differing.saturating_sub(score.differing),
-            remaining: score.differing,
-            pixels: self.explained(candidate),
-        }
-    }
-
-    /// The pixels that differ under our conventions, and not under these.
-    fn explained(&self, candidate: &Candidate) -> Vec<[u32; 2]> {
-        if !self.placements.contains(&Placement::Upright) {
-            return Vec::new();
-        }
-        let mut wrong = vec![false; self.truth.ids.len()];
-        let ours = Expected::new(self.view, &Convention::default(), self.truth);
-        let none = Encoding::default();
-        ours.each(self.observed, Placement::Upright, &none, |index, differs, _| {
-            wrong[index] = differs;
-        });
-        let drawn = self.drawn(&candidate.convention, Rows::ALL);
-        let expected = Expected::new(self.view, &candidate.convention, &drawn);
-        let placement = candidate.convention.placement;
-        expected.each(self.observed, placement, &candidate.encoding, |index, differs, _| {
-            wrong[index] &= !differs;
-        });
-        let width = self.view.camera.image()[0] as usize;
-        let number = |side: usize| u32::try_from(side).expect("at most 2^16");
-        let explained = (0..wrong.len()).filter(|&index| wrong[index]);
-        explained.map(|index| [number(index / width), number(index % width)]).collect()
     }
 }
