@@ -49,6 +49,7 @@ impl<'a> Expected<'a> {
         nothing: NothingEncoding,
     ) -> Encoding {
         let base = Encoding { nothing, ..Encoding::default() };
+        // A mask has no numbers: no pixels need to be looked up.
         if matches!(observed.values, Values::Mask(_)) {
             return base;
         }
