@@ -122,19 +122,19 @@ pub enum NothingEncoding {
 
 impl NothingEncoding {
     /// Whether a mask with this value covers a pixel.
-    pub(super) fn is_covered(self, value: bool) -> bool {
+    pub(super) fn covers(self, value: bool) -> bool {
         value != (self == NothingEncoding::Inverted)
     }
 
     /// Whether an id, which is not ours of nothing, stands for nothing.
-    pub(super) fn is_id(self, id: u64) -> bool {
+    pub(super) fn matches_id(self, id: u64) -> bool {
         #[expect(clippy::cast_precision_loss, reason = "an id that is large is not 0")]
         let is_number = |number: f64| id as f64 == number;
         matches!(self, NothingEncoding::Number(number) if is_number(number))
     }
 
     /// Whether a distance stands for nothing.
-    pub(super) fn is_distance(self, t: f64) -> bool {
+    pub(super) fn matches_distance(self, t: f64) -> bool {
         !t.is_finite() || self == NothingEncoding::Number(t)
     }
 }

@@ -28,8 +28,8 @@ pub(super) struct Expected<'a> {
     pub(super) view: &'a View<'a>,
     pub(super) drawn: &'a Drawn,
     rays: ViewingRays,
-    /// Those by which probes are chosen.
-    seen: OnceCell<Vec<Seen>>,
+    /// Evenly spread pixels that show something, of which the probes are some.
+    seen: OnceCell<Vec<DrawnPixel>>,
 }
 
 /// The most pixels by which an encoding is chosen.
@@ -49,36 +49,32 @@ impl<'a> Expected<'a> {
         nothing: NothingEncoding,
     ) -> Encoding {
         let base = Encoding { nothing, ..Encoding::default() };
-        // A mask has no numbers: no pixels need to be looked up.
-        if matches!(observed.values, Values::Mask(_)) {
-            return base;
-        }
-        let probes = self.probes(observed, placement, nothing);
-        let mut encodings = vec![base];
         match &observed.values {
-            Values::Mask(_) => {}
+            Values::Mask(_) => base,
             Values::Ids(ids) => {
+                let probes = self.probes(observed, placement, nothing);
                 let from_one = IdEncoding::CountedFrom(1);
                 let others = [from_one, IdEncoding::FromTheEnd, IdEncoding::OfObjects];
                 let others = others.into_iter().chain(self.first_number(ids, &probes));
-                encodings.extend(others.map(|ids| Encoding { ids, ..base }));
+                let others = others.map(|ids| Encoding { ids, ..base });
+                most_agreeing(base, others, |encoding| {
+                    let numbering = self.numbering(encoding.ids);
+                    let number = |probe: &Probe| numbering.number(self.drawn.ids[probe.at.pixel]);
+                    probes.iter().filter(|probe| ids[probe.index] == Some(number(probe))).count()
+                })
             }
             Values::Distances(t) => {
-                let others = self.distance_encodings(t, &probes);
-                let with = |distances| Encoding { distances, ..base };
-                encodings.extend(others.into_iter().map(with));
+                let probes = self.probes(observed, placement, nothing);
+                let others = self.distance_encodings(t, &probes).into_iter();
+                let others = others.map(|distances| Encoding { distances, ..base });
+                most_agreeing(base, others, |encoding| {
+                    let encoding = encoding.distances;
+                    let number = |probe: &Probe| self.number(probe.at, encoding);
+                    let agrees = |probe: &&Probe| encoding.holds(t[probe.index], number(probe));
+                    probes.iter().filter(agrees).count()
+                })
             }
         }
-        let agree = |encoding: &Encoding| self.agreeing(observed, &probes, encoding);
-        // Of equals the first, which is ours.
-        let mut best = (encodings[0], agree(&encodings[0]));
-        for encoding in &encodings[1..] {
-            let count = agree(encoding);
-            if count > best.1 {
-                best = (*encoding, count);
-            }
-        }
-        best.0
     }
 
     /// Pixels that both cover, evenly spread.
@@ -90,12 +86,7 @@ impl<'a> Expected<'a> {
     ) -> Vec<Probe> {
         let place = IndexMap::new(placement, self.size());
         let seen = self.seen.get_or_init(|| self.some_that_are_seen()).iter();
-        let placed = seen.map(|&Seen { pixel, row, column }| Probe {
-            pixel,
-            index: place.index([row, column]),
-            row,
-            column,
-        });
+        let placed = seen.map(|&at| Probe { at, index: place.index([at.row, at.column]) });
         let mut found: Vec<Probe> =
             placed.filter(|probe| observed.covered(probe.index, nothing)).collect();
         let step = found.len().div_ceil(PROBES);
@@ -105,14 +96,17 @@ impl<'a> Expected<'a> {
         found
     }
 
-    /// Evenly spread pixels, of which the picture covers all.
-    fn some_that_are_seen(&self) -> Vec<Seen> {
+    /// Evenly spread pixels, those of them that show something.
+    fn some_that_are_seen(&self) -> Vec<DrawnPixel> {
         let (pixels, width) = (self.drawn.ids.len(), self.rays.x.len());
         let step = (pixels / (PROBES * 4)).max(1);
         let is_seen = |pixel: &usize| self.drawn.ids[*pixel] != NO_PRIMITIVE;
         let seen = (0..pixels).step_by(step).filter(is_seen);
-        seen.map(|pixel| Seen { pixel, row: self.drawn.rows[pixel / width], column: pixel % width })
-            .collect()
+        let at = |pixel: usize| {
+            let (row, column) = (self.drawn.rows[pixel / width], pixel % width);
+            DrawnPixel { pixel, row, column }
+        };
+        seen.map(at).collect()
     }
 
     /// Width and height of the picture.
@@ -123,7 +117,7 @@ impl<'a> Expected<'a> {
     /// The number above 1 from which most primitives count, of those at the probes. One primitive alone counts from any.
     fn first_number(&self, ids: &[Option<u64>], probes: &[Probe]) -> Option<IdEncoding> {
         let difference = |probe: &Probe| {
-            let id = self.drawn.ids[probe.pixel];
+            let id = self.drawn.ids[probe.at.pixel];
             Some((ids[probe.index]?.checked_sub(id.into())?, id))
         };
         let mut counted: Vec<(u64, u32)> = probes.iter().filter_map(difference).collect();
@@ -142,7 +136,7 @@ impl<'a> Expected<'a> {
         let mut encodings =
             vec![AlongAxis, AlongRay, NegativeT, NegativeAlongAxis, NegativeAlongRay];
         // A window depth is A + B/z: two probes, as far from each other as can be, give A and B.
-        let depth = |probe: &Probe| self.number(probe, DistanceEncoding::AlongAxis);
+        let depth = |probe: &Probe| self.number(probe.at, DistanceEncoding::AlongAxis);
         let nearest = probes.iter().min_by(|a, b| depth(a).total_cmp(&depth(b)));
         let farthest = probes.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)));
         if let (Some(nearest), Some(farthest)) = (nearest, farthest) {
@@ -161,7 +155,7 @@ impl<'a> Expected<'a> {
         probes: &[Probe],
         ends: [&Probe; 2],
     ) -> Option<DistanceEncoding> {
-        let distance = |probe: &Probe| self.number(probe, DistanceEncoding::T);
+        let distance = |probe: &Probe| self.number(probe.at, DistanceEncoding::T);
         let middle = f64::midpoint(distance(ends[0]), distance(ends[1]));
         let off = |probe: &Probe| (distance(probe) - middle).abs();
         let between = probes.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
@@ -169,21 +163,11 @@ impl<'a> Expected<'a> {
         linear([ends[0], between, ends[1]].map(point))
     }
 
-    /// The number that an encoding writes for the distance at a probe.
-    fn number(&self, probe: &Probe, encoding: DistanceEncoding) -> f64 {
-        self.number_at(probe.pixel, [probe.row, probe.column], encoding)
-    }
-
-    /// The number that an encoding writes for the distance in a drawn pixel.
-    fn number_at(
-        &self,
-        pixel: usize,
-        [row, column]: [usize; 2],
-        encoding: DistanceEncoding,
-    ) -> f64 {
-        let t = self.drawn.t[pixel];
+    /// The number that an encoding writes for the distance in a pixel.
+    fn number(&self, at: DrawnPixel, encoding: DistanceEncoding) -> f64 {
+        let t = self.drawn.t[at.pixel];
         let axis = || t * self.rays.axis().length();
-        let ray = || t * self.rays.ray(row, column).direction.length();
+        let ray = || t * self.rays.ray(at.row, at.column).direction.length();
         match encoding {
             DistanceEncoding::T => t,
             DistanceEncoding::AlongAxis => axis(),
@@ -217,27 +201,6 @@ impl<'a> Expected<'a> {
             _ => return None,
         };
         Some(t).filter(|t| t.is_finite() && *t > 0.0)
-    }
-
-    /// At how many of these pixels, which both cover, the file agrees with the picture.
-    fn agreeing(&self, observed: &Observed, probes: &[Probe], encoding: &Encoding) -> usize {
-        match &observed.values {
-            Values::Mask(_) => probes.len(),
-            Values::Ids(ids) => {
-                let numbering = self.numbering(encoding.ids);
-                let agrees = |probe: &&Probe| {
-                    let id = self.drawn.ids[probe.pixel];
-                    ids[probe.index] == Some(numbering.number(id))
-                };
-                probes.iter().filter(agrees).count()
-            }
-            Values::Distances(t) => {
-                let encoding = encoding.distances;
-                let agrees =
-                    |probe: &&Probe| encoding.holds(t[probe.index], self.number(probe, encoding));
-                probes.iter().filter(agrees).count()
-            }
-        }
     }
 
     /// The numbers that stand for the primitives of the scene.
@@ -324,34 +287,33 @@ impl<'a> Expected<'a> {
         // What kind of file it is, is asked once, and not in each of the many pixels.
         match &observed.values {
             Values::Mask(mask) => {
-                let shown = |index| nothing.is_covered(mask[index]).then_some(());
+                let shown = |index| nothing.covers(mask[index]).then_some(());
                 let expected = |pixel, _| Some(pixel).filter(is_seen).map(|_| ());
                 self.compare(placement, shown, expected, |(), ()| true, tell);
             }
-            Values::Ids(ids) if encoding.ids == IdEncoding::OneToOne => {
-                let shown = |index: usize| ids[index].filter(|&id| !nothing.is_id(id));
-                let expected = |pixel, _| Some(pixel).filter(is_seen).map(|pixel| drawn.ids[pixel]);
-                let agree = |number, id| renaming.holds(id, number);
-                self.compare(placement, shown, expected, agree, tell);
-            }
             Values::Ids(ids) => {
-                let numbering = self.numbering(encoding.ids);
-                let shown = |index: usize| ids[index].filter(|&id| !nothing.is_id(id));
-                // If 0 is nothing and ids count from 0, the first primitive looks like nothing.
-                let is_zero = nothing == NothingEncoding::Number(0.0);
-                let expected = |pixel, _| {
-                    let seen = Some(pixel).filter(is_seen);
-                    let number = seen.map(|pixel| numbering.number(drawn.ids[pixel]));
-                    number.filter(|&number| !(is_zero && number == 0))
-                };
-                self.compare(placement, shown, expected, |shown, expected| shown == expected, tell);
+                let shown = |index: usize| ids[index].filter(|&id| !nothing.matches_id(id));
+                let seen = |pixel| Some(pixel).filter(is_seen).map(|pixel| drawn.ids[pixel]);
+                if encoding.ids == IdEncoding::OneToOne {
+                    let agree = |number, id| renaming.holds(id, number);
+                    self.compare(placement, shown, |pixel, _| seen(pixel), agree, tell);
+                } else {
+                    let numbering = self.numbering(encoding.ids);
+                    // If 0 is nothing and ids count from 0, the first primitive looks like nothing.
+                    let is_zero = nothing == NothingEncoding::Number(0.0);
+                    let expected = |pixel, _| {
+                        let number = seen(pixel).map(|id| numbering.number(id));
+                        number.filter(|&number| !(is_zero && number == 0))
+                    };
+                    self.compare(placement, shown, expected, |shown, own| shown == own, tell);
+                }
             }
             Values::Distances(t) => {
                 let encoding = encoding.distances;
-                let shown = |index: usize| Some(t[index]).filter(|&t| !nothing.is_distance(t));
+                let shown = |index: usize| Some(t[index]).filter(|&t| !nothing.matches_distance(t));
                 let expected = |pixel, [row, column]: [usize; 2]| {
                     let seen = Some(pixel).filter(is_seen);
-                    seen.map(|pixel| self.number_at(pixel, [row, column], encoding))
+                    seen.map(|pixel| self.number(DrawnPixel { pixel, row, column }, encoding))
                 };
                 let agree = |shown, expected| encoding.holds(shown, expected);
                 self.compare(placement, shown, expected, agree, tell);
@@ -392,24 +354,37 @@ pub(super) fn score_of_truth(
     expected.score(observed, Placement::Upright, &Encoding::default())
 }
 
-/// A drawn pixel that shows something.
+/// The encoding under which most pixels agree; of equals the first, and `ours` before all.
+fn most_agreeing(
+    ours: Encoding,
+    others: impl Iterator<Item = Encoding>,
+    agreeing: impl Fn(&Encoding) -> usize,
+) -> Encoding {
+    let mut best = (ours, agreeing(&ours));
+    for encoding in others {
+        let count = agreeing(&encoding);
+        if count > best.1 {
+            best = (encoding, count);
+        }
+    }
+    best.0
+}
+
+/// A pixel of the picture.
 #[derive(Clone, Copy, Debug)]
-struct Seen {
+struct DrawnPixel {
     /// The index among the drawn pixels.
     pixel: usize,
     row: usize,
     column: usize,
 }
 
-/// A pixel of the picture and of the file.
+/// A pixel that the picture and the file cover.
 #[derive(Clone, Copy, Debug)]
 struct Probe {
-    /// The index among the drawn pixels.
-    pixel: usize,
+    at: DrawnPixel,
     /// The index in the file.
     index: usize,
-    row: usize,
-    column: usize,
 }
 
 /// The index in the file of a pixel of the picture.

@@ -44,9 +44,9 @@ impl Observed {
     #[inline]
     pub(super) fn covered(&self, index: usize, nothing: NothingEncoding) -> bool {
         match &self.values {
-            Values::Mask(mask) => nothing.is_covered(mask[index]),
-            Values::Ids(ids) => ids[index].is_some_and(|id| !nothing.is_id(id)),
-            Values::Distances(t) => !nothing.is_distance(t[index]),
+            Values::Mask(mask) => nothing.covers(mask[index]),
+            Values::Ids(ids) => ids[index].is_some_and(|id| !nothing.matches_id(id)),
+            Values::Distances(t) => !nothing.matches_distance(t[index]),
         }
     }
 
