@@ -150,7 +150,7 @@ fn draw_both(
 
 #[test]
 fn crops_that_cut_tiles_equal_the_whole_on_any_number_of_threads() {
-    let (scene, image) = (mixed_scene(), [203, 141]);
+    let (scene, image) = (mixed_scene(), [139, 75]);
     let mut seed = 100;
     for projection in PROJECTIONS {
         for eye in [[1.5, 1.0, 4.0], [0.1, -0.2, 0.3]] {
