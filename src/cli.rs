@@ -37,6 +37,7 @@ mod status_line;
 mod sweep;
 mod table;
 mod terminal;
+mod thread_pool;
 mod usage;
 mod vectors;
 

@@ -37,7 +37,7 @@ pub fn open<'a>(
     let mut has_palette = false;
     match format {
         ImageFormat::Png => has_palette = png::check(&mut input, length)?,
-        ImageFormat::Bmp => check_runs(&mut input, length)?,
+        ImageFormat::Bmp => has_palette = check_bmp(&mut input, length)?,
         ImageFormat::Jpeg => jpeg::check(&mut input, length)?,
         _ => {}
     }
@@ -87,17 +87,21 @@ impl OpenPicture<'_> {
 /// The most pixels that two bytes of a run-length BMP can fill.
 const LONGEST_RUN: u64 = 255;
 
-/// Refuses a run-length BMP that is far too short for its size: a file of a few bytes can claim any size.
-fn check_runs(input: &mut (impl BufRead + Seek), length: u64) -> Result<(), Problem> {
+/// Refuses a run-length BMP that is far too short for its size: a file of a few bytes can claim any size. The result says
+/// whether the pixels are colours of a palette, as all pixels of up to eight bits are.
+fn check_bmp(input: &mut (impl BufRead + Seek), length: u64) -> Result<bool, Problem> {
     let mut header = Vec::new();
     input.rewind()?;
     input.by_ref().take(34).read_to_end(&mut header)?;
     if header.len() < 34 {
-        return Ok(());
+        return Ok(false);
     }
     let number = |at: usize| header[at..at + 4].try_into().map_or(0, i32::from_le_bytes);
+    // The first version of the format has a shorter header.
+    let is_short = number(14) < 40;
+    let bits = header[if is_short { 24 } else { 28 }];
     let ([width, height], compression) = ([number(18), number(22)], number(30));
-    let runs = matches!(compression, 1 | 2) && number(14) >= 40;
+    let runs = matches!(compression, 1 | 2) && !is_short;
     // The height is negative if the rows come from the top.
     let [width, height] = [width, height].map(i32::unsigned_abs);
     if runs && u64::from(width) * u64::from(height) > length * LONGEST_RUN {
@@ -106,7 +110,7 @@ fn check_runs(input: &mut (impl BufRead + Seek), length: u64) -> Result<(), Prob
              complete, save it as PNG"
         )));
     }
-    Ok(())
+    Ok(matches!(bits, 1..=8))
 }
 
 /// The message of a decoder in our words: the decoders' own messages name bytes of their formats, and no remedy.

@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::output::{NewFile, Out, Staging};
 use super::patience::Patience;
 use super::progress::Bar;
+use super::thread_pool::thread_pool;
 use super::{exr, memory, npy, table, terminal};
 use bothways::common::raster::check_samples;
 use bothways::common::{Camera, View};
@@ -29,6 +30,7 @@ const SLIDE_WIDTH: u32 = 1920;
 /// otherwise.
 pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     check_rules(args)?;
+    check_only(args)?;
     let stream = args.method.stream;
     if stream {
         check_stream(args)?;
@@ -43,7 +45,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     }
     check_verify(args)?;
     let (camera, staging, folder) = prepared_output(args, scene.loaded())?;
-    let pool = thread_pool(args)?;
+    let pool = thread_pool(args.method.threads.unwrap_or(0).into())?;
     let bar = Bar::of_run(args);
     pool.install(|| {
         let run = Run::new(args, &mut scene, &camera, bar.as_ref())?;
@@ -75,6 +77,17 @@ fn check_rules(args: &RenderArgs) -> Result<(), Failure> {
         return Err(Failure::new(refused));
     }
     Ok(())
+}
+
+/// Refuses to write nothing but what shows both orders where one is drawn: the files of an earlier run would be removed for it.
+fn check_only(args: &RenderArgs) -> Result<(), Failure> {
+    let of_both = [(OnlyArg::Difference, "difference"), (OnlyArg::Slide, "slide")];
+    let asked = of_both.into_iter().find(|(what, _)| args.output.only.contains(what));
+    let ([order], Some((_, name))) = (args.method.order.orders(), asked) else { return Ok(()) };
+    Err(Failure::new(format!(
+        "--only {name} shows both orders, and --order draws {} alone; leave one of them out",
+        order.name()
+    )))
 }
 
 /// Refuses options that do not work with a stream.
@@ -146,14 +159,6 @@ pub(super) fn folder_name(name: &str) -> String {
     } else {
         name.chars().map(typed).collect()
     }
-}
-
-/// The thread pool for rendering.
-fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failure> {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(args.method.threads.unwrap_or(0).into())
-        .build()
-        .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))
 }
 
 /// The options for one order.

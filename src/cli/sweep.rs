@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::output::{OutputFile, Staging};
 use super::status_line::StatusLine;
 use super::terminal;
+use super::thread_pool::thread_pool;
 use bothways::common::engine::simd::best_level;
 use bothways::figure::{Theme, sweep_chart};
 use bothways::sweep::{Axis, Bench, Plan, Quantity, Summary, Table, json};
@@ -101,8 +102,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<ExitCode, Failure> {
         Plan { image: args.size, most: args.most, times: !args.no_times, rounds: args.rounds };
     let conditions = if args.no_times { String::new() } else { conditions(args.threads) };
     let mut table = begun(args, &plan, &conditions)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads.into()).build();
-    let pool = pool.map_err(|error| Failure::new(format!("cannot start the threads: {error}")))?;
+    let pool = thread_pool(args.threads.into())?;
     pool.install(|| measure(args, &plan, &axes, &mut table))?;
 
     let summaries: Vec<Summary> = axes

@@ -327,6 +327,11 @@ fn max_memory_is_kept_to() {
         assert!(refused.starts_with(expected), "{line}: {refused}");
         assert!(refused.contains("more than --max-memory leaves ("), "{line}: {refused}");
     }
+    // The stacks of threads are memory.
+    let threads = said("canonical --threads 1024 --max-memory 300M -o there");
+    assert!(threads.starts_with("error: cannot start 1024 threads ("), "{threads}");
+    let remedy = "give fewer with --threads, or allow more memory or more processes\n";
+    assert!(threads.ends_with(remedy), "{threads}");
     // The same is drawn where it may take more.
     let drawn =
         bothways(home.path(), "canonical --size 400x400 --max-memory 1G --quiet -o there").status();

@@ -8,6 +8,7 @@ use super::text::count_of;
 use crate::cli::failure::Failure;
 use crate::cli::output::Staging;
 use crate::cli::terminal;
+use crate::cli::usage::quoted;
 use anstyle::{AnsiColor, Style};
 use bothways::diff::foreign::Side;
 use bothways::diff::foreign::{self, BufferComparison};
@@ -217,13 +218,14 @@ impl FolderReport<'_> {
     fn next_step(&self) -> String {
         let differs = |row: &&Compared| row.is(|comparison| !comparison.passes);
         let Some(row) = self.rows.iter().find(differs) else { return String::new() };
-        let file = |folder: &Path, file: &str| folder.join(file).display().to_string();
+        let file = |folder: &Path, file: &str| quoted(&folder.join(file).display().to_string());
         let (a, b) = (file(&self.args.a, &row.pair.a), file(&self.args.b, &row.pair.b));
         let mut text = format!("next: bothways diff {a} {b} -o out/diff\n");
         let first = row.compared.as_ref().ok().and_then(|one| one.first_differing.first());
         let scene = scene_of(self.args, row.pair, self.pairs.set);
         if let (Some(scene), Some([i, j])) = (scene, first) {
-            text += &format!("why:  bothways pixel {} {i} {j}\n", scene.display());
+            text +=
+                &format!("why:  bothways pixel {} {i} {j}\n", quoted(&scene.display().to_string()));
         }
         text
     }

@@ -4,6 +4,7 @@ use super::inputs::{self, SceneArgs};
 use super::text::line;
 use crate::cli::args::ProjectionArg;
 use crate::cli::failure::Failure;
+use crate::cli::usage::quoted;
 use anstyle::Style;
 use bothways::common::{Camera, Crop, Scene, View};
 use bothways::diff::foreign::{
@@ -489,7 +490,7 @@ pub(super) fn of_sizes(args: &SceneArgs, [a, b]: [&Buffer; 2]) -> String {
 /// The scene and the options of its camera, as `bothways pixel` takes them.
 pub(super) fn arguments(args: &SceneArgs, files: [u32; 2]) -> String {
     let SceneArgs { scene, files: read, camera } = args;
-    let mut words: Vec<String> = scene.iter().cloned().collect();
+    let mut words: Vec<String> = scene.iter().map(|scene| quoted(scene)).collect();
     let mut add = |name: &str, value: Option<String>| {
         words.extend(value.map(|value| format!("--{name} {value}")));
     };

@@ -208,6 +208,14 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "canonical --only masks",
         "invalid value 'masks' for '--only <WHAT>' [possible values: picture, mask, difference, slide, report]",
     ),
+    (
+        "canonical --order image --only difference",
+        "--only difference shows both orders, and --order draws image order alone; leave one of them out",
+    ),
+    (
+        "canonical --order object --only picture,slide",
+        "--only slide shows both orders, and --order draws object order alone; leave one of them out",
+    ),
     ("canonical --quiet --json", "the argument '--quiet' cannot be used with '--json'"),
     ("canonical --quiet=yes", "unexpected value 'yes' for '--quiet' found; no more were expected"),
     ("canonical --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),

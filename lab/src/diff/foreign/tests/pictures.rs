@@ -53,6 +53,32 @@ fn bilevel_pictures_and_grey_palettes_are_masks() {
     );
 }
 
+/// A BMP of two rows of four pixels, with a palette of these colours, `0xRRGGBB`; its rows come from the bottom.
+fn tiny_bmp(bits: u8, palette: &[u32], rows: [[u8; 4]; 2]) -> Vec<u8> {
+    let pixels_at = 54 + 4 * u32::try_from(palette.len()).unwrap();
+    let mut bytes = b"BM".to_vec();
+    for number in [pixels_at + 8, 0, pixels_at, 40, 4, 2, 1 | u32::from(bits) << 16, 0, 0, 0, 0] {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes.extend(u32::try_from(palette.len()).unwrap().to_le_bytes());
+    bytes.extend([0; 4]);
+    palette.iter().for_each(|color| bytes.extend(color.to_le_bytes()));
+    bytes.extend(rows.as_flattened());
+    bytes
+}
+
+#[test]
+fn bilevel_and_grey_bmp_files_are_masks() {
+    let expected = Content::Mask(vec![false, true, true, false, true, false, false, true].into());
+    let read = |bytes: &[u8]| read_bytes(bytes, None).unwrap();
+    let [black_and_white, red] = [[0, 0xff_ffff], [0, 0xff_0000]];
+    let bilevel = [[0b1001_0000, 0, 0, 0], [0b0110_0000, 0, 0, 0]];
+    assert_eq!(read(&tiny_bmp(1, &black_and_white, bilevel)).content(), &expected);
+    let bytes = [[1, 0, 0, 1], [0, 1, 1, 0]];
+    assert_eq!(read(&tiny_bmp(8, &black_and_white, bytes)).content(), &expected);
+    assert_eq!(read(&tiny_bmp(8, &red, bytes)).kind(), "picture without coverage");
+}
+
 fn jpeg(image: impl Into<DynamicImage>) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     image.into().write_to(&mut bytes, ImageFormat::Jpeg).unwrap();
