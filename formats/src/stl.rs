@@ -5,7 +5,8 @@
 //! The reader takes both forms of the format (3D Systems, "Stereolithography Interface Specification", 1988):
 //!
 //! - **binary**: 80 bytes of any content, the number of facets, and 50 bytes a facet, all little-endian. A file is binary if
-//!   its size is exactly that, `84 + 50·n`: many binary files begin with the word "solid", too.
+//!   its size is exactly that, `84 + 50·n`: many binary files begin with the word "solid", too. A byte 0 near the beginning tells
+//!   that a file of another size is no text either.
 //! - **ASCII**: `solid`, facets (`facet normal`, `outer loop`, three times `vertex x y z`, `endloop`, `endfacet`), and
 //!   `endsolid`, in lower or upper case; any number of solids. Each number is rounded once, to the nearest `f32`.
 //!

@@ -44,7 +44,10 @@ pub enum GltfFault {
     NotGltf,
     #[error("a binary glTF file of version {version} is not read, only of version 2")]
     ContainerVersion { version: u32 },
-    #[error("it should have {stated} bytes, but has {found}; is it truncated?")]
+    #[error(
+        "it should have {stated} bytes, but has {found}; {}",
+        if .found < .stated { "is it truncated?" } else { "is the length in its header wrong?" }
+    )]
     ContainerLength { stated: u64, found: u64 },
     #[error("its first chunk is no JSON, or no chunk at all")]
     NoJson,

@@ -414,7 +414,10 @@ fn containers_and_versions_that_are_not_read_say_so() {
     assert_eq!(changed(4, &[1]), "a binary glTF file of version 1 is not read, only of version 2");
     assert_eq!(
         changed(8, &[0; 4]),
-        format!("it should have 0 bytes, but has {}; is it truncated?", whole.len())
+        format!(
+            "it should have 0 bytes, but has {}; is the length in its header wrong?",
+            whole.len()
+        )
     );
     assert_eq!(
         changed(8, &[0xff; 4]),

@@ -35,7 +35,10 @@ pub(super) fn read(
         let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let Some(word) = words.next() else { continue };
         let keyword = word.to_ascii_lowercase();
-        state = state.after(&keyword, word, &mut words, &mut corners).map_err(located)?;
+        let is_control = |byte: &u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
+        let in_words = |fault| if text.iter().any(is_control) { StlFault::NotText } else { fault };
+        let after = state.after(&keyword, word, &mut words, &mut corners);
+        state = after.map_err(in_words).map_err(located)?;
         if state == State::Complete {
             facet(corners).map_err(located)?;
             state = State::LoopEnd;

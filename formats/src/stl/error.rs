@@ -1,5 +1,6 @@
 //! Errors about STL files: each names the file, the line or the facet, and the fault.
 
+use super::layout::binary_size;
 use crate::source::Unreadable;
 use std::io;
 
@@ -20,11 +21,13 @@ pub enum ReadStlError {
         /// The file.
         file: String,
     },
-    /// The file does not begin with `solid`, nor has it the size of a binary file.
-    #[error("{file}: this is no STL file: it does not begin with \"solid\"{}", size_of(*.size, *.facets))]
+    /// The file is neither text that begins with `solid`, nor has it the size of a binary file.
+    #[error("{file}: this is no STL file: it {}{}", no_text(*.begins), size_of(*.size, *.facets))]
     Neither {
         /// The file.
         file: String,
+        /// Whether it begins with `solid`, but is no text.
+        begins: bool,
         /// Its size, in bytes.
         size: u64,
         /// The number of facets that it would promise as a binary file.
@@ -58,15 +61,25 @@ pub enum ReadStlError {
     },
 }
 
+/// Why a file is no ASCII file.
+fn no_text(begins: bool) -> &'static str {
+    if begins { "begins with \"solid\", but is no text" } else { "does not begin with \"solid\"" }
+}
+
 /// How the size of a file differs from that of a binary file.
 fn size_of(size: u64, facets: Option<u32>) -> String {
-    match facets {
-        None => format!(", and a binary one has at least 84 bytes, this one has {size}"),
-        Some(facets) => format!(
-            ", and as a binary one of {facets} facets it would have {} bytes, but has {size}; is it truncated?",
-            super::layout::binary_size(facets)
-        ),
-    }
+    let Some(facets) = facets else {
+        return format!(", and a binary one has at least 84 bytes, this one has {size}");
+    };
+    let stated = binary_size(facets);
+    let cause = if size < stated {
+        "is it truncated?"
+    } else {
+        "is its number of facets wrong, or something appended to it?"
+    };
+    format!(
+        ", and as a binary one of {facets} facets it would have {stated} bytes, but has {size}; {cause}"
+    )
 }
 
 /// What is wrong with a line or a facet of an STL file.
@@ -78,6 +91,9 @@ pub enum StlFault {
     /// A word stands where the format has another.
     #[error("{text:?} stands here in place of \"{expected}\"")]
     Unexpected { text: String, expected: &'static str },
+    /// The line has bytes that no text has.
+    #[error("this is not plain text, as an ASCII STL file must be; is the file damaged?")]
+    NotText,
     /// The file ends within a solid.
     #[error("the file ends here, before \"{expected}\"; is it truncated?")]
     Ended { expected: &'static str },

@@ -2,7 +2,7 @@
 
 use super::builder::Places;
 use super::error::{ReadStlError, StlFault};
-use super::layout::{HEADER, is_binary, promised};
+use super::layout::{BEGINNING, HEADER, is_binary, promised};
 use super::{ascii, binary};
 use crate::source::{READ_AT_ONCE, regular_file};
 use glam::Vec3;
@@ -38,14 +38,15 @@ impl<R: BufRead + Seek> StlFile<R> {
         let size = input.seek(SeekFrom::End(0)).map_err(unreadable)?;
         input.rewind().map_err(unreadable)?;
         let mut beginning = Vec::new();
-        input.by_ref().take(HEADER as u64).read_to_end(&mut beginning).map_err(unreadable)?;
-        let is_binary = is_binary(&beginning, size);
+        input.by_ref().take(BEGINNING).read_to_end(&mut beginning).map_err(unreadable)?;
+        let (is_binary, begins) = (is_binary(&beginning, size), ascii::begins(&beginning));
         if beginning.is_empty() {
             Err(ReadStlError::Empty { file: name })
-        } else if is_binary || ascii::begins(&beginning) {
+        } else if is_binary || (begins && !beginning.contains(&0)) {
             Ok(StlFile { name, input, is_binary, places: Places::default() })
         } else {
-            Err(ReadStlError::Neither { file: name, size, facets: promised(&beginning) })
+            // Binary files may begin with the same word. All have zeros soon: in their number of facets, and behind each.
+            Err(ReadStlError::Neither { file: name, begins, size, facets: promised(&beginning) })
         }
     }
 

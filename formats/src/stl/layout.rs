@@ -5,6 +5,9 @@ pub(super) const HEADER: usize = 84;
 /// The bytes of each facet.
 pub(super) const FACET: usize = 50;
 
+/// The first bytes of a file, which tell a binary one from text.
+pub(super) const BEGINNING: u64 = 1 << 10;
+
 /// The size of a binary file of so many facets.
 pub(super) fn binary_size(facets: u32) -> u64 {
     HEADER as u64 + FACET as u64 * u64::from(facets)

@@ -44,12 +44,21 @@ fn binary_files_are_told_by_their_size_even_if_they_begin_with_solid() {
     bytes[..6].copy_from_slice(b"solid ");
     assert_eq!(parse("a", &bytes).unwrap(), mesh);
     // One byte more or less, and it is no binary file.
-    bytes.push(0);
-    assert!(message(&bytes).starts_with("a:1: "), "{}", message(&bytes));
-    bytes[0] = b'x';
-    let says = "a: this is no STL file: it does not begin with \"solid\", and as a binary one of 2 facets it would have 184 \
-                bytes, but has 185; is it truncated?";
-    assert_eq!(message(&bytes), says);
+    let size = "and as a binary one of 2 facets it would have 184 bytes, but has";
+    let begins = "a: this is no STL file: it begins with \"solid\", but is no text";
+    let differs = "a: this is no STL file: it does not begin with \"solid\"";
+    let longer = "185; is its number of facets wrong, or something appended to it?";
+    let shorter = "183; is it truncated?";
+    let mut other = bytes.clone();
+    other[0] = b'x';
+    for (bytes, says) in [(&bytes, begins), (&other, differs)] {
+        assert_eq!(message(&bytes[..183]), format!("{says}, {size} {shorter}"));
+        assert_eq!(message([&bytes[..], b"\n"].concat()), format!("{says}, {size} {longer}"));
+    }
+    assert_eq!(
+        message(&bytes[..83]),
+        format!("{begins}, and a binary one has at least 84 bytes, this one has 83")
+    );
     let short = "a: this is no STL file: it does not begin with \"solid\", and a binary one has at least 84 bytes, this one \
                  has 9";
     assert_eq!(message(b"solidxxxx"), short);
@@ -98,6 +107,10 @@ fn what_is_wrong_is_named_with_its_line() {
         "a:15: the file ends here, before \"facet normal\" or \"endsolid\"; is it truncated?"
     );
     assert_eq!(message(format!("{SQUARE}x")), "a:17: \"x\" stands here in place of \"solid\"");
+    let no_text = "a:3: this is not plain text, as an ASCII STL file must be; is the file damaged?";
+    assert_eq!(changed("outer loop", "outer \u{1b}[31mloop"), no_text);
+    let late = format!("{}\0{SQUARE}", SQUARE.repeat(9));
+    assert_eq!(message(late), no_text.replace('3', "145"));
     let long = format!("solid {}", "x".repeat(1 << 17));
     assert_eq!(message(long), "a:1: the line has 65536 bytes or more; is this an STL file?");
     let mut bytes = Vec::new();
