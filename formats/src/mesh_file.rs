@@ -3,7 +3,7 @@
 use crate::gltf::{self, Model, ReadGltfError};
 use crate::obj::{self, ReadObjError};
 use crate::ply::{self, ReadPlyError};
-use crate::source::InputFile;
+use crate::source::{InputFile, without_mark};
 use crate::stl::{self, ReadStlError};
 use crate::warning::MaterialWarning;
 use bothways_common::scene::{Mesh, Shape};
@@ -83,12 +83,13 @@ impl Format {
 
     /// The format of a file that begins like this and has this size. Nothing in an OBJ file tells that it is one.
     fn told_by(beginning: &[u8], size: u64) -> Option<Format> {
+        let text = without_mark(beginning);
         let is_json = || {
-            let some = &beginning[..beginning.len().min(BEGINNING)];
+            let some = &text[..text.len().min(BEGINNING)];
             some.trim_ascii_start().starts_with(b"{")
                 && memchr::memmem::find(some, b"\"asset\"").is_some()
         };
-        if beginning.starts_with(b"ply\n") || beginning.starts_with(b"ply\r") {
+        if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
             Some(Format::Ply)
         } else if gltf::is_binary(beginning) || is_json() {
             Some(Format::Gltf)
@@ -176,6 +177,8 @@ mod tests {
         let of = |bytes: &[u8]| of_named("a.obj", bytes);
         assert_eq!(of(b"ply\nformat"), Some(Format::Ply));
         assert_eq!(of(b"plywood\n"), Some(Format::Obj));
+        assert_eq!(of(b"\xef\xbb\xbfply\r\n"), Some(Format::Ply));
+        assert_eq!(of(b"\xef\xbb\xbf{\"asset\": {}}"), Some(Format::Gltf));
         assert_eq!(of(b"glTF\x02\0\0\0"), Some(Format::Gltf));
         assert_eq!(of(b" {\n \"asset\": {}}"), Some(Format::Gltf));
         assert_eq!(of(b"{}"), Some(Format::Obj));

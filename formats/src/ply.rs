@@ -11,10 +11,10 @@
 //! - The list `vertex_indices` or `vertex_index` of the element `face`, of any integer types: a polygon of any size, cut
 //!   into the fan `(0, k, k + 1)` in file order. Indices count from 0.
 //! - `red`, `green`, `blue` of the element `vertex`, if all three are there: its colour, from 0 to 1, or to 255 or 65,535 in
-//!   integers. It is read as sRGB: programs that write it show it unchanged. The colours of faces are not read;
-//!   [`read_with_warnings`] says so.
+//!   integers. It is read as sRGB: programs that write it show it unchanged. The colours of faces are not read, and
+//!   neither are textures and their coordinates; [`read_with_warnings`] says so.
 //! - Other properties and other elements are skipped, but must be complete. Nothing may follow the last element: the
-//!   header of such a file does not fit its content.
+//!   header of such a file does not fit its content. A byte order mark before the header is skipped.
 //!
 //! A binary file is decoded as fast as it comes into memory, and value by value where that is not possible. A count in the file never makes the reader reserve memory before the values
 //! themselves have been read.
@@ -46,7 +46,7 @@ pub fn read(path: &Path) -> Result<Mesh, ReadPlyError> {
     PlyFile::open(path)?.mesh()
 }
 
-/// Reads a mesh as [`read`] does, from the disk or from memory, with a warning if the file has colours that are not read.
+/// Reads a mesh as [`read`] does, from the disk or from memory, with warnings if the file has colours or textures that are not read.
 ///
 /// # Errors
 ///

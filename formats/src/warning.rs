@@ -48,6 +48,11 @@ pub enum MaterialWarning {
         /// The mesh's file.
         file: String,
     },
+    /// The PLY file has textures or texture coordinates, which are not read.
+    PlyTextures {
+        /// The mesh's file.
+        file: String,
+    },
     /// Pictures are not there.
     MissingPictures {
         /// The mesh's file, or its material file.
@@ -91,6 +96,11 @@ impl fmt::Display for MaterialWarning {
                 f,
                 "{file}: the colours of its faces are not read; all of it is drawn in the material of its \
                  object"
+            ),
+            MaterialWarning::PlyTextures { file } => write!(
+                f,
+                "{file}: textures and texture coordinates of PLY files are not read; it is drawn without; export it as \
+                 OBJ or glTF to keep them"
             ),
             MaterialWarning::MissingPictures { file, names, why } => {
                 let missing = why.of("picture", &some_of(names));

@@ -81,14 +81,18 @@ impl<R: BufRead + Seek> PlyFile<R> {
             .expect("the reader has checked numbers and indices"))
     }
 
-    /// Reads all elements into a mesh, with a warning if its faces have colours and its vertices have none.
+    /// Reads all elements into a mesh, with a warning if its faces have colours and its vertices have none, and one if it has
+    /// textures.
     pub(super) fn mesh_with_warnings(
         &mut self,
     ) -> Result<(Mesh, Vec<MaterialWarning>), ReadPlyError> {
-        let Header { has_face_colors, colors, .. } = self.header;
+        let Header { has_face_colors, has_textures, colors, .. } = self.header;
         let is_missed = has_face_colors && colors.is_none();
-        let warning = is_missed.then(|| MaterialWarning::FaceColors { file: self.name.clone() });
-        Ok((self.mesh()?, warning.into_iter().collect()))
+        let file = || self.name.clone();
+        let of_faces = is_missed.then(|| MaterialWarning::FaceColors { file: file() });
+        let textures = has_textures.then(|| MaterialWarning::PlyTextures { file: file() });
+        let warnings = of_faces.into_iter().chain(textures).collect();
+        Ok((self.mesh()?, warnings))
     }
 
     /// Visits all vertices, and does not read what follows them.
@@ -96,9 +100,10 @@ impl<R: BufRead + Seek> PlyFile<R> {
         self.visit(Pass::Vertices, &mut |vertex: Vertex| visit(vertex.position), &mut |_| ())
     }
 
-    /// A warning if the file has colours: no stream reads them.
+    /// A warning if the file has colours or textures: no stream reads them.
     pub(crate) fn color_warning(&self) -> Option<MaterialWarning> {
-        let has_colors = self.header.has_face_colors || self.header.colors.is_some();
+        let Header { has_face_colors, has_textures, colors, .. } = self.header;
+        let has_colors = has_face_colors || has_textures || colors.is_some();
         has_colors.then(|| MaterialWarning::Streamed { file: self.name.clone() })
     }
 

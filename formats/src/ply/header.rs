@@ -2,6 +2,7 @@
 
 use super::error::HeaderFault;
 use crate::source::quote::{self, quote};
+use crate::source::without_mark;
 use std::io::{self, BufRead, Read};
 use std::ops::Range;
 
@@ -127,6 +128,8 @@ pub(super) struct Header {
     pub(super) colors: Option<[usize; 3]>,
     /// Whether faces have colours.
     pub(super) has_face_colors: bool,
+    /// Whether a texture is named, or faces or vertices have texture coordinates.
+    pub(super) has_textures: bool,
     /// The index of the list of corners among the properties of a face.
     pub(super) corners: usize,
     /// The number of bytes before the first element.
@@ -198,15 +201,22 @@ struct Draft {
     encoding: Option<Encoding>,
     groups: Vec<ElementGroup>,
     properties: usize,
+    names_texture: bool,
 }
+
+/// The beginning of the line in which some programs name a texture.
+const TEXTURE: &[u8] = b"comment TextureFile";
+/// The names that programs give to texture coordinates of vertices.
+const TEXTURE_COORDINATES: [[&str; 2]; 3] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]];
 
 impl Draft {
     /// Parses one line, and tells whether it ends the header.
     fn statement(&mut self, line: u64, text: &[u8]) -> Result<bool, HeaderFault> {
         if line == 1 {
-            return if text == b"ply" { Ok(false) } else { Err(HeaderFault::NotPly) };
+            return if without_mark(text) == b"ply" { Ok(false) } else { Err(HeaderFault::NotPly) };
         }
         if text.starts_with(b"comment") || text.starts_with(b"obj_info") {
+            self.names_texture |= text.starts_with(TEXTURE);
             return Ok(false);
         }
         let unknown = || HeaderFault::UnknownStatement { text: quote(text) };
@@ -314,6 +324,11 @@ impl Draft {
             _ => None,
         };
         let has_face_colors = face.property("red").is_some();
+        let are_there =
+            |names: &[&str; 2]| names.iter().all(|name| vertex.property(name).is_some());
+        let has_textures = self.names_texture
+            || face.property("texcoord").is_some()
+            || TEXTURE_COORDINATES.iter().any(are_there);
         let corners = face.property("vertex_indices").or_else(|| face.property("vertex_index"));
         let is_index_list = |&k: &usize| match face.properties[k].kind {
             PropertyType::List { item, .. } => item.is_integer(),
@@ -329,6 +344,7 @@ impl Draft {
             normals,
             colors,
             has_face_colors,
+            has_textures,
             corners,
             bytes,
             lines,

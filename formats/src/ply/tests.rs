@@ -487,3 +487,40 @@ fn colors_of_faces_are_missed() {
     let says = "a: the colours of its faces are not read; all of it is drawn in the material of its object";
     assert_eq!(warnings.iter().map(ToString::to_string).collect::<Vec<_>>(), [says]);
 }
+
+#[test]
+fn textures_are_missed() {
+    let said = |comment: &str, of_vertices: &str, of_faces: &str| {
+        let (vertex, faces) = (format!("{XYZ}{of_vertices}"), format!("{FACES}{of_faces}"));
+        let numbers = " 0".repeat(of_vertices.matches("property").count());
+        let vertices = SQUARE.replace('\n', &format!("{numbers}\n"));
+        let list = if of_faces.is_empty() { "" } else { " 0" };
+        let file =
+            header("ascii", &[comment, "element vertex 4", &vertex, "element face 1", &faces]);
+        let file = format!("{file}{vertices}3 0 1 2{list}\n");
+        let streams = PlyFile::new("a".into(), Cursor::new(file.as_bytes())).unwrap();
+        let (_, warnings) = given_with_warnings(&file).unwrap();
+        assert_eq!(warnings.is_empty(), streams.color_warning().is_none());
+        warnings.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let says = "a: textures and texture coordinates of PLY files are not read; it is drawn without; export it as OBJ or glTF to \
+                keep them";
+    let pair = |a: &str, b: &str| format!("\nproperty float {a}\nproperty double {b}");
+    let list = "\nproperty list uchar float texcoord";
+    assert_eq!(said("comment TextureFile a.png", &pair("s", "t"), list), [says]);
+    assert_eq!(said("comment TextureFile a.png", "", ""), [says]);
+    assert_eq!(said("comment none", "", list), [says]);
+    for (a, b) in [("s", "t"), ("u", "v"), ("texture_u", "texture_v")] {
+        assert_eq!(said("comment none", &pair(a, b), ""), [says]);
+    }
+    assert!(said("comment no TextureFile", &pair("s", "v"), "").is_empty());
+}
+
+#[test]
+fn a_byte_order_mark_stands_before_nothing() {
+    let plain = square(1, "4 0 1 2 3");
+    let marked = format!("\u{feff}{plain}");
+    assert_eq!(parse("a", marked.as_bytes()).unwrap(), parse("a", plain.as_bytes()).unwrap());
+    let twice = message(format!("\u{feff}{marked}"));
+    assert!(twice.starts_with("a:1: this is no PLY file"), "{twice}");
+}
