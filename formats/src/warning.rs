@@ -14,6 +14,8 @@ pub enum Missing {
     NotGiven,
     /// Several of the files that were given have its name.
     Ambiguous,
+    /// It is a URL.
+    Url,
 }
 
 /// What is missing of a mesh's materials. Triangles without one are drawn in the material of their object, which is light
@@ -131,6 +133,9 @@ impl Missing {
                 format!("the {kind} {names} was not opened with it (open or drop both together)")
             }
             Missing::Ambiguous => format!("several opened files could be the {kind} {names}"),
+            Missing::Url => format!(
+                "the {kind} {names} is a URL, and nothing is fetched (download it, and name it by a relative path)"
+            ),
         }
     }
 }

@@ -460,12 +460,15 @@ fn buffers_beside_the_file_are_read_and_no_others() {
         "%2e%2e/outside.bin",
         "/etc/passwd",
         &absolute,
-        "file:///etc/passwd",
-        "http://example.org/a.bin",
         "C:/a.bin",
     ] {
         let says = with(uri).unwrap_err();
         assert!(says.starts_with("a: buffer 0: \"") && says.ends_with(outside), "{uri}: {says}");
+    }
+    for uri in ["file:///etc/passwd", "http://example.org/a.bin"] {
+        let says =
+            "is a URL, and nothing is fetched; download the file, and name it by a relative path";
+        assert_eq!(with(uri), Err(format!("a: buffer 0: {uri:?} {says}")));
     }
     #[cfg(unix)]
     {

@@ -100,6 +100,15 @@ pub enum FindFileError {
         /// The file, as it is named.
         name: String,
     },
+    /// It is not on the disk.
+    #[error(
+        "{} is a URL, and nothing is fetched; download the file, and name it by a relative path",
+        quoted(.name)
+    )]
+    Url {
+        /// The file, as it is named.
+        name: String,
+    },
     /// It does not exist, or the system reports another error.
     #[error("{file}: {}", Unreadable::new(.error, "a file"))]
     Unreadable {
@@ -135,6 +144,7 @@ impl FindFileError {
     pub(crate) fn missing(&self) -> Option<Missing> {
         match self {
             FindFileError::Outside { .. } => Some(Missing::Outside),
+            FindFileError::Url { .. } => Some(Missing::Url),
             FindFileError::NotGiven { .. } => Some(Missing::NotGiven),
             FindFileError::Ambiguous { .. } => Some(Missing::Ambiguous),
             FindFileError::Unreadable { error, .. } => {
@@ -179,6 +189,9 @@ impl<'f> Files<'f> {
         reach: Reach,
         name: &str,
     ) -> Result<InputFile<'f>, FindFileError> {
+        if is_url(name) {
+            return Err(FindFileError::Url { name: name.to_owned() });
+        }
         let path = self.folder.join(name);
         let unreadable =
             |error| FindFileError::Unreadable { file: path.display().to_string(), error };
@@ -322,6 +335,13 @@ fn canonical(folder: &Path) -> io::Result<PathBuf> {
     if folder == Path::new("") { Path::new(".") } else { folder }.canonicalize()
 }
 
+/// Whether a name begins with a scheme, which is longer than the letter of a drive.
+fn is_url(name: &str) -> bool {
+    let scheme = name.split_once("://").map_or("", |(scheme, _)| scheme);
+    let is_part = |byte: u8| byte.is_ascii_alphanumeric() || b"+-.".contains(&byte);
+    scheme.len() > 1 && scheme.bytes().all(is_part)
+}
+
 /// Whether a name leads to a place in the root or below it, by its words alone. Both folders are canonical, and `folder` is
 /// in the root or below.
 fn within(root: &Path, folder: &Path, name: &str) -> bool {
@@ -413,6 +433,21 @@ mod tests {
         }
         let none = Files::none().find("c.obj").unwrap_err().to_string();
         assert_eq!(none, format!("\"c.obj\" {says}"));
+    }
+
+    #[test]
+    fn nothing_is_fetched() {
+        for reach in [Reach::Folder, Reach::Anywhere] {
+            let files = Files::in_folder(Path::new("."), reach);
+            for name in ["http://a.org/b.png", "HTTPS://a", "file:///etc/passwd"] {
+                let says = files.find(name).unwrap_err().to_string();
+                let expected = "is a URL, and nothing is fetched; download the file, and name it by a relative path";
+                assert_eq!(says, format!("{name:?} {expected}"));
+            }
+        }
+        for name in ["C://a", "a/b://c", "://a", "http:/a", "a"] {
+            assert!(!is_url(name), "{name}");
+        }
     }
 
     #[test]
