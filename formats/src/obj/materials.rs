@@ -46,6 +46,7 @@ pub(super) fn resolve(
     };
     let file = input.name();
     for library in libraries {
+        let library = with_slashes(&library);
         let found = match library_files(input, &library) {
             Ok(found) => found,
             Err(why) => {
@@ -74,6 +75,11 @@ pub(super) fn resolve(
     }
     warnings.append(&mut pictures_missing);
     Ok(warnings)
+}
+
+/// The name of a file that programs wrote with the separators of their own system.
+fn with_slashes(name: &str) -> String {
+    name.replace('\\', "/")
 }
 
 /// Puts one warning in the place of all but the first missing material files.
@@ -165,8 +171,7 @@ impl ReadMaterial {
     ) -> Result<Material, ReadObjError> {
         let ReadMaterial { mut material, map } = self;
         let Some(Map { name, sampler }) = map else { return Ok(material) };
-        // Programs write the separators of their own system.
-        let name = name.replace('\\', "/");
+        let name = with_slashes(&name);
         let wrong = |error| ReadObjError::Picture { file: file.name(), error };
         if let Some(pyramid) = pictures.find(file.files(), &name).map_err(wrong)? {
             material.texture = Some(Texture { pyramid, sampler });

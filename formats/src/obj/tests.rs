@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::attributes::NONE;
-use crate::source::GivenFile;
-use bothways_common::scene::Attribute;
+use crate::source::{GivenFile, Reach};
+use bothways_common::scene::{Attribute, Material};
 use glam::{Vec2, Vec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -113,6 +113,38 @@ fn very_many_material_files_take_no_quadratic_time_and_few_warnings() {
         (9, "a: 99992 more material files are missing beside it")
     );
     assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
+}
+
+/// The material of a triangle whose OBJ file names this library, and the warnings or the error; `a.mtl` has this text, `a.tga`,
+/// `a.png` and `b` are no pictures.
+fn with_library(library: &str, mtl: &str) -> Result<(Material, Vec<String>), String> {
+    let thread = std::thread::current().id();
+    let folder = format!("bothways-library-{}-{thread:?}", std::process::id());
+    let folder = std::env::temp_dir().join(folder);
+    fs::create_dir_all(folder.join("sub")).unwrap();
+    let text = format!("mtllib {library}\n{SQUARE}usemtl m\nf 1 2 3\n");
+    let files =
+        [("a.obj", text.as_str()), ("sub/a.mtl", mtl), ("sub/a.tga", "?"), ("sub/a.png", "?")];
+    for (name, text) in files {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    let input = InputFile::on_disk(&folder.join("a.obj"), Reach::Folder);
+    let shown = |text: String| text.replace(&format!("{}/", folder.display()), "");
+    let read = read_with_materials(&input);
+    fs::remove_dir_all(&folder).unwrap();
+    let (mesh, warnings) = read.map_err(|error| shown(error.to_string()))?;
+    let material = mesh.materials().unwrap().of(0).cloned().unwrap_or_default();
+    Ok((material, warnings.iter().map(|warning| shown(warning.to_string())).collect()))
+}
+
+#[test]
+fn the_separators_of_another_system_lead_to_a_material_file() {
+    for library in ["sub/a.mtl", "sub\\a.mtl", "sub\\a.mtl .\\sub\\a.mtl"] {
+        let (material, warnings) = with_library(library, "newmtl m\nKs 1\n").unwrap();
+        assert_eq!((material.specular, warnings.len()), (1.0, 0), "{library}");
+    }
+    let says = "a.obj: there is no material file \"sub/b.mtl\" beside it; what needs it is drawn in light grey";
+    assert_eq!(with_library("sub\\b.mtl", "").unwrap().1, [says]);
 }
 
 #[test]
