@@ -16,6 +16,8 @@ pub enum Missing {
     Ambiguous,
     /// It is a URL.
     Url,
+    /// It is there, but in a format that is not read.
+    Unread,
 }
 
 /// What is missing of a mesh's materials. Triangles without one are drawn in the material of their object, which is light
@@ -59,10 +61,21 @@ pub enum MaterialWarning {
     MissingPictures {
         /// The mesh's file, or its material file.
         file: String,
+        /// The first line of a material file that names one of them, counted from 1.
+        line: Option<usize>,
         /// Their names.
         names: Vec<String>,
         /// Why.
         why: Missing,
+    },
+    /// Colours of materials are stated in a way that is not read.
+    UnreadColors {
+        /// The material file.
+        file: String,
+        /// The line of the first, counted from 1.
+        line: usize,
+        /// The names of the materials.
+        names: Vec<String>,
     },
     /// The file's materials have textures of a kind that is not read.
     Textures {
@@ -104,10 +117,17 @@ impl fmt::Display for MaterialWarning {
                 "{file}: textures and texture coordinates of PLY files are not read; it is drawn without; export it as \
                  OBJ or glTF to keep them"
             ),
-            MaterialWarning::MissingPictures { file, names, why } => {
+            MaterialWarning::MissingPictures { file, line, names, why } => {
                 let missing = why.of("picture", &some_of(names));
-                write!(f, "{file}: {missing}; what has it as its texture is drawn without")
+                let line = line.map_or(String::new(), |line| format!(":{line}"));
+                write!(f, "{file}{line}: {missing}; what has it as its texture is drawn without")
             }
+            MaterialWarning::UnreadColors { file, line, names } => write!(
+                f,
+                "{file}:{line}: Kd of {} is stated as xyz or spectral, which is not read; what is made of it is \
+                 drawn in light grey; state three numbers",
+                some_of(names)
+            ),
             MaterialWarning::Textures { file } => write!(
                 f,
                 "{file}: some of its textures are of a kind that is not read; what has one is drawn in its base colour"
@@ -135,6 +155,9 @@ impl Missing {
             Missing::Ambiguous => format!("several opened files could be the {kind} {names}"),
             Missing::Url => format!(
                 "the {kind} {names} is a URL, and nothing is fetched (download it, and name it by a relative path)"
+            ),
+            Missing::Unread => format!(
+                "the {kind} {names} is in a format that is not read (save it as PNG, JPEG, BMP or PNM)"
             ),
         }
     }

@@ -100,7 +100,7 @@ fn materials_and_pictures_outside_are_left_out_with_a_warning() {
     let scene = home.path().join("scene");
     let says = "b.obj: the material file \"../beside/materials/a.mtl\" is outside of its folder";
     bothways(&scene, &["b.obj", "-o", "out"]).code(0).stderr(contains(says));
-    let says = "c.mtl: the picture \"../beside/red.png\" is outside of its folder, which takes --allow-outside; what has it \
+    let says = "c.mtl:3: the picture \"../beside/red.png\" is outside of its folder, which takes --allow-outside; what has it \
                 as its texture is drawn without";
     bothways(&scene, &["c.obj", "-o", "out"]).code(0).stderr(contains(says));
     for name in ["b.obj", "c.obj"] {

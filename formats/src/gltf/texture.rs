@@ -70,7 +70,7 @@ impl<'a> Textures<'a> {
             Image::Own(bytes) => self.pictures.of_bytes(NAME, &bytes).map(Some).map_err(wrong),
             Image::File(name) => self.pictures.find(self.files, &name).map_err(wrong),
             Image::NoFile => {
-                self.pictures.miss(uri, Missing::Absent);
+                self.pictures.miss(uri, Missing::Absent, None);
                 Ok(None)
             }
         }

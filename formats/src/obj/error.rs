@@ -35,10 +35,12 @@ pub enum ReadObjError {
         file: String,
     },
     /// A material file names a picture that cannot be read.
-    #[error("{file}: {error}")]
+    #[error("{file}:{line}: {error}")]
     Picture {
         /// The material file.
         file: String,
+        /// The line that names the picture, counted from 1.
+        line: usize,
         /// What is wrong with the picture.
         error: ReadTextureError,
     },

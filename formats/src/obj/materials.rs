@@ -4,11 +4,11 @@
 //!
 //! - `newmtl name` begins a material, which the statements after it describe. A name may contain blanks.
 //! - `Kd r g b` and `Ks r g b` are the diffuse colour and the colour of the highlight, from 0 to 1. One number alone
-//!   is grey.
+//!   is grey. In place of the numbers, `xyz` or `spectral` may stand: such a `Kd` is not read, with a warning, and such a `Ks` is skipped.
 //! - `Ns s` is the exponent of the highlight. The format defines it with the half vector, as we do.
 //! - `map_Kd [options] file` is a texture, by its path from the material file; of its options, `-clamp on` and the first two
 //!   numbers of `-s` count. It is read with mipmaps, and stands in place of `Kd`: the format would multiply the two, but programs
-//!   write any grey beside a picture and show the picture alone. One that is missing is a warning.
+//!   write any grey beside a picture and show the picture alone. One that is missing, or in a format that is not read, is a warning.
 //!
 //! All other statements (ambient colour, transparency, other maps, extensions of other programs) are skipped.
 //!
@@ -22,7 +22,8 @@ use super::error::{ReadObjError, StatementFault};
 use super::file::ObjFile;
 use super::statements::Statements;
 use super::words::{Words, is_text, number};
-use crate::picture::texture::Pictures;
+use crate::picture::ReadTextureError;
+use crate::picture::texture::{Pictures, has_known_ending};
 use crate::source::InputFile;
 use crate::source::quote::quote;
 use crate::warning::{MaterialWarning, Missing};
@@ -39,7 +40,7 @@ pub(super) fn resolve(
     mesh: &mut Mesh,
     input: &InputFile,
 ) -> Result<Vec<MaterialWarning>, ReadObjError> {
-    let (mut warnings, mut pictures_missing) = (Vec::new(), Vec::new());
+    let (mut warnings, mut of_materials) = (Vec::new(), Vec::new());
     let libraries = match mesh.materials() {
         Some(materials) if !materials.spans().is_empty() => materials.libraries().to_vec(),
         _ => return Ok(warnings),
@@ -55,14 +56,7 @@ pub(super) fn resolve(
             }
         };
         for found in found {
-            let mut pictures = Pictures::default();
-            for (name, read) in read_materials(&found)? {
-                if is_used(mesh, &name) {
-                    let material = read.with_picture(&found, &mut pictures)?;
-                    mesh.define_material(&name, material);
-                }
-            }
-            pictures_missing.extend(pictures.warnings(&found.name()));
+            of_materials.extend(define(mesh, &found)?);
         }
     }
     let named = mesh.materials().map_or(&[][..], |materials| materials.named());
@@ -73,8 +67,29 @@ pub(super) fn resolve(
     if !names.is_empty() && warnings.is_empty() {
         warnings.push(MaterialWarning::Undefined { file, names });
     }
-    warnings.append(&mut pictures_missing);
+    warnings.append(&mut of_materials);
     Ok(warnings)
+}
+
+/// Gives a mesh the materials of one file that it has triangles of, and returns warnings about what of them is not drawn.
+fn define(mesh: &mut Mesh, file: &InputFile) -> Result<Vec<MaterialWarning>, ReadObjError> {
+    let (mut pictures, mut grey) = (Pictures::default(), Vec::new());
+    let mut first = None;
+    for (name, read) in read_materials(file)? {
+        if !is_used(mesh, &name) {
+            continue;
+        }
+        let unread_color = read.unread_color;
+        let material = read.with_picture(file, &mut pictures)?;
+        if unread_color.is_some() && material.texture.is_none() {
+            first = first.or(unread_color);
+            grey.push(name.clone());
+        }
+        mesh.define_material(&name, material);
+    }
+    let colors =
+        first.map(|line| MaterialWarning::UnreadColors { file: file.name(), line, names: grey });
+    Ok(colors.into_iter().chain(pictures.warnings(&file.name())).collect())
 }
 
 /// The name of a file that programs wrote with the separators of their own system.
@@ -130,7 +145,7 @@ pub fn parse_materials(name: &str, bytes: &[u8]) -> Result<Vec<(String, Material
 fn materials_in(name: &str, bytes: &[u8]) -> Result<Vec<(String, ReadMaterial)>, ReadObjError> {
     let mut materials = Vec::new();
     for (line, words) in Statements::new(bytes) {
-        statement(&mut materials, words).map_err(|fault| ReadObjError::Statement {
+        statement(&mut materials, line, words).map_err(|fault| ReadObjError::Statement {
             file: name.to_owned(),
             line,
             fault,
@@ -145,7 +160,7 @@ fn read_materials(file: &InputFile) -> Result<Vec<(String, ReadMaterial)>, ReadO
         return materials_in(&file.name(), bytes);
     }
     let mut materials = Vec::new();
-    ObjFile::open(file.path())?.statements(|_, words| statement(&mut materials, words))?;
+    ObjFile::open(file.path())?.statements(|line, words| statement(&mut materials, line, words))?;
     Ok(finished(materials))
 }
 
@@ -154,30 +169,44 @@ fn read_materials(file: &InputFile) -> Result<Vec<(String, ReadMaterial)>, ReadO
 struct ReadMaterial {
     material: Material,
     map: Option<Map>,
+    /// The line that states its colour, if it is not read.
+    unread_color: Option<usize>,
 }
 
 /// A picture as a statement names it, and how it is read.
 struct Map {
+    /// The line of the statement.
+    line: usize,
     name: String,
     sampler: Sampler,
 }
 
 impl ReadMaterial {
-    /// The material with its picture, unless that is missing.
+    /// The material with its picture, unless that is missing or in a format that is not read.
     fn with_picture(
         self,
         file: &InputFile,
         pictures: &mut Pictures,
     ) -> Result<Material, ReadObjError> {
-        let ReadMaterial { mut material, map } = self;
-        let Some(Map { name, sampler }) = map else { return Ok(material) };
+        let ReadMaterial { mut material, map, .. } = self;
+        let Some(Map { line, name, sampler }) = map else { return Ok(material) };
         let name = with_slashes(&name);
-        let wrong = |error| ReadObjError::Picture { file: file.name(), error };
-        if let Some(pyramid) = pictures.find(file.files(), &name).map_err(wrong)? {
-            material.texture = Some(Texture { pyramid, sampler });
-            // The picture shows in its own colours.
-            material.color = Vec3::ONE;
+        let read = pictures.of_file(file.files(), &name);
+        let missing = match &read {
+            Err(ReadTextureError::Find(error)) => error.missing(),
+            Err(ReadTextureError::NotAPicture { .. }) if !has_known_ending(&name) => {
+                Some(Missing::Unread)
+            }
+            _ => None,
+        };
+        if let Some(why) = missing {
+            pictures.miss(&name, why, Some(line));
+            return Ok(material);
         }
+        let wrong = |error| ReadObjError::Picture { file: file.name(), line, error };
+        material.texture = Some(Texture { pyramid: read.map_err(wrong)?, sampler });
+        // The picture shows in its own colours.
+        material.color = Vec3::ONE;
         Ok(material)
     }
 }
@@ -189,7 +218,7 @@ fn is_used(mesh: &Mesh, name: &str) -> bool {
 }
 
 /// The picture that a statement names behind its options; `None` if it names none.
-fn map_of(mut words: Words) -> Option<Map> {
+fn map_of(line: usize, mut words: Words) -> Option<Map> {
     let mut sampler = Sampler::MIPMAPS;
     loop {
         let mut rest = words.clone();
@@ -218,7 +247,7 @@ fn map_of(mut words: Words) -> Option<Map> {
         }
         words = rest;
     }
-    words.text().map(|name| Map { name, sampler })
+    words.text().map(|name| Map { line, name, sampler })
 }
 
 /// Removes the highlight of materials with `Ns 0`, at the end of a file.
@@ -235,6 +264,7 @@ fn finished(mut materials: Vec<(String, ReadMaterial)>) -> Vec<(String, ReadMate
 /// Parses one statement.
 fn statement(
     materials: &mut Vec<(String, ReadMaterial)>,
+    line: usize,
     mut words: Words,
 ) -> Result<(), StatementFault> {
     let Some(keyword) = words.next() else { return Ok(()) };
@@ -245,16 +275,23 @@ fn statement(
         },
         b"Kd" | b"Ks" | b"Ns" => {
             let read = last(materials, keyword)?;
-            describe(&mut read.material, keyword, words)?;
+            let is_color = keyword != b"Ns";
+            let is_unread = is_color && matches!(words.clone().next(), Some(b"xyz" | b"spectral"));
+            if keyword == b"Kd" {
+                read.unread_color = is_unread.then_some(line);
+            }
+            if !is_unread {
+                describe(&mut read.material, keyword, words)?;
+            }
         }
-        b"map_Kd" => last(materials, keyword)?.map = map_of(words),
+        b"map_Kd" => last(materials, keyword)?.map = map_of(line, words),
         _ if !is_text(keyword) => return Err(StatementFault::NotText),
         _ => {}
     }
     Ok(())
 }
 
-/// Applies a statement to a material.
+/// Applies a statement of numbers to a material.
 fn describe(material: &mut Material, keyword: &[u8], words: Words) -> Result<(), StatementFault> {
     match keyword {
         b"Kd" => material.color = color(keyword, words)?.map(linear_from_encoded),

@@ -148,6 +148,42 @@ fn the_separators_of_another_system_lead_to_a_material_file() {
 }
 
 #[test]
+fn a_picture_in_a_format_that_is_not_read_is_a_warning() {
+    let said = |name: &str| with_library("sub/a.mtl", &format!("newmtl m\nKd 1\nmap_Kd {name}\n"));
+    let (material, warnings) = said("a.tga").unwrap();
+    assert_eq!((material.texture, material.color), (None, Vec3::ONE));
+    let without = "what has it as its texture is drawn without";
+    let format = "is in a format that is not read (save it as PNG, JPEG, BMP or PNM)";
+    assert_eq!(warnings, [format!("sub/a.mtl:3: the picture \"a.tga\" {format}; {without}")]);
+    let absent = format!("sub/a.mtl:3: there is no picture \"b.tga\" beside it; {without}");
+    assert_eq!(said("b.tga").unwrap().1, [absent]);
+    let url = "is a URL, and nothing is fetched (download it, and name it by a relative path)";
+    assert_eq!(
+        said("http://a.org/b.png").unwrap().1,
+        [format!("sub/a.mtl:3: the picture \"http://a.org/b.png\" {url}; {without}")]
+    );
+    let broken =
+        "sub/a.mtl:3: sub/a.png is no picture (PNG, JPEG, BMP or PNM); save it as one of these";
+    assert_eq!(said("a.png").unwrap_err(), broken);
+}
+
+#[test]
+fn colors_that_are_no_three_numbers_are_legal() {
+    let said = |text: &str| with_library("sub/a.mtl", &format!("newmtl m\n{text}\n"));
+    let says = "sub/a.mtl:3: Kd of \"m\" is stated as xyz or spectral, which is not read; what is made of it is drawn in light \
+                grey; state three numbers";
+    let others = "Ks xyz 1 1 1";
+    for color in ["Kd xyz 0.5 0.5 0.5", "Kd xyz 1", "Kd spectral a.rfl 1"] {
+        let (material, warnings) = said(&format!("{others}\n{color}\nKa spectral f.rfl")).unwrap();
+        assert_eq!((material, warnings), (Material::default(), vec![says.to_owned()]), "{color}");
+    }
+    let (material, warnings) = said("Ks spectral f.rfl\nKa xyz 1 1 1\nKd xyz 1\nKd 1").unwrap();
+    assert_eq!((material.color, warnings.len()), (Vec3::ONE, 0));
+    let wrong = said("Ns xyz 1").unwrap_err();
+    assert_eq!(wrong, "sub/a.mtl:2: \"xyz\" is not a number");
+}
+
+#[test]
 fn what_is_no_statement_says_so() {
     assert_eq!(fault("foo 1 2"), r#"there is no statement "foo" that an OBJ file may have here"#);
     assert_eq!(fault("V 1 2 3"), r#"there is no statement "V" that an OBJ file may have here"#);

@@ -6,8 +6,8 @@ use crate::warning::{MaterialWarning, Missing};
 use bothways_common::look::color::{linear_from_encoded, linear_from_srgb};
 use bothways_common::scene::Pyramid;
 use glam::Vec3;
-use image::DynamicImage;
-use std::collections::{BTreeMap, BTreeSet};
+use image::{DynamicImage, ImageFormat};
+use std::collections::BTreeMap;
 use std::io::{self, BufRead, Cursor, Read, Seek, SeekFrom};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -65,8 +65,8 @@ const MOST_MEMORY: u64 = MOST_TEXELS * 16;
 /// The pictures that a file names, each read once.
 pub(crate) struct Pictures {
     known: BTreeMap<PathBuf, Arc<Pyramid>>,
-    /// The names of those that are not there.
-    missing: BTreeMap<Missing, BTreeSet<String>>,
+    /// The names of those that are not there, with the first line that names each.
+    missing: BTreeMap<Missing, BTreeMap<String, Option<usize>>>,
     left: u64,
 }
 
@@ -112,22 +112,23 @@ impl Pictures {
         if let Err(ReadTextureError::Find(error)) = &read
             && let Some(why) = error.missing()
         {
-            self.miss(name, why);
+            self.miss(name, why, None);
             return Ok(None);
         }
         read.map(Some)
     }
 
-    /// Notes that a picture is missing.
-    pub(crate) fn miss(&mut self, name: &str, why: Missing) {
-        self.missing.entry(why).or_default().insert(name.to_owned());
+    /// Notes that a picture is missing, which a line names.
+    pub(crate) fn miss(&mut self, name: &str, why: Missing, line: Option<usize>) {
+        self.missing.entry(why).or_default().entry(name.to_owned()).or_insert(line);
     }
 
     /// Warnings about those that are missing, for a file that names them.
     pub(crate) fn warnings(&self, file: &str) -> impl Iterator<Item = MaterialWarning> {
         self.missing.iter().map(|(&why, names)| {
-            let names = names.iter().cloned().collect();
-            MaterialWarning::MissingPictures { file: file.to_owned(), names, why }
+            let line = names.values().copied().flatten().min();
+            let names = names.keys().cloned().collect();
+            MaterialWarning::MissingPictures { file: file.to_owned(), line, names, why }
         })
     }
 
@@ -169,6 +170,11 @@ impl Pictures {
         self.left -= texels;
         Ok(Arc::new(Pyramid::new(width as usize, linear(picture))))
     }
+}
+
+/// Whether the name of a file is that of a picture in a format that is read.
+pub(crate) fn has_known_ending(name: &str) -> bool {
+    ImageFormat::from_path(name).is_ok_and(|format| format.reading_enabled())
 }
 
 /// The first bytes of an input, which determine the format, and the length of the input.
