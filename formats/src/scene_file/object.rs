@@ -131,10 +131,7 @@ fn mesh(
         Ok(file) => Format::of_file(file),
         Err(_) => Format::of(Path::new(name)),
     };
-    let Some(format) = format else {
-        let problem = format!("is {}, which is no mesh file ({EXTENSIONS})", quoted(name));
-        return Err(item.problem(problem).help("convert it to one of these; no others are read"));
-    };
+    let format = format.ok_or_else(|| no_mesh(item, name))?;
     let file = found.map_err(|error| Problem::new(item.span.clone(), error.to_string()))?;
     let wrong = |error: ReadMeshError| Problem::new(item.span.clone(), error.to_string());
     let own_materials = object.get("material").is_none();
@@ -156,6 +153,21 @@ fn mesh(
         let mesh = if own_materials { mesh } else { bare(mesh) };
         smooth::with_normals(mesh, smooth::CREASE)
     }))
+}
+
+/// The problem of a name that is not that of a mesh file.
+fn no_mesh(item: &Item, name: &str) -> Problem {
+    if let Some((file, _)) = name.split_once('#')
+        && Format::of(Path::new(file)) == Some(Format::Gltf)
+    {
+        let problem = format!("is {}, and a camera (#NAME) cannot be named here", quoted(name));
+        return item.problem(problem).help(format!(
+            "name {} alone, and state the camera in [camera], as `bothways scenes FILE#NAME` prints it",
+            quoted(file)
+        ));
+    }
+    let problem = format!("is {}, which is no mesh file ({EXTENSIONS})", quoted(name));
+    item.problem(problem).help("convert it to one of these; no others are read")
 }
 
 /// The mesh without materials and colours.

@@ -68,6 +68,12 @@ fn what_is_wrong_with_an_object() {
              no others are read",
         ),
         (
+            "[[object]]\nmesh = 'a.glb#cam A'",
+            "'a.glb#cam A'",
+            "2:8: mesh is \"a.glb#cam A\", and a camera (#NAME) cannot be named here; name \"a.glb\" alone, and state the camera \
+             in [camera], as `bothways scenes FILE#NAME` prints it",
+        ),
+        (
             "[[object]]\ngenerate = { kind = 'tors' }",
             "'tors'",
             "2:21: kind is \"tors\"; did you mean \"torus\"?",
