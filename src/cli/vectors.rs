@@ -63,7 +63,7 @@ fn write_vector(staging: &mut Staging, vector: &Vector, frame: &Frame) -> Result
     let Vector { name, point, mesh, camera, .. } = vector;
     let [toml, mesh_file, all, ids, distances, seen] =
         ENDINGS.map(|ending| format!("{name}{ending}"));
-    let scene = format!("# {point}\n\n{}", framed_mesh_toml(camera, &mesh_file));
+    let scene = format!("# {point}\n\n{}", framed_mesh_toml(camera, false, &mesh_file));
     let json = json(vector, frame).map_err(|error| Failure::new(error.to_string()))?;
     staging.write(&toml, |out| out.write_all(scene.as_bytes()))?;
     staging.write(&mesh_file, |out| obj::write(mesh, out))?;

@@ -59,6 +59,7 @@ fn a_camera_of_a_gltf_file_is_chosen_by_its_name() {
         printed.stdout(
             contains("eye = [0.0, 1.0, 9.0]")
                 .and(contains("image = [720, 480]"))
+                .and(contains("viewport = [1.5, 1.0]"))
                 .and(contains("mesh = \"a.glb\"")),
         );
         bothways(&home, &[source, "--size", "36x24", "-o", "out"]).code(0);

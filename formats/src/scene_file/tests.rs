@@ -5,8 +5,9 @@ use super::*;
 use bothways_common::camera::{Orientation, Projection};
 use glam::Vec3;
 
-fn read_back(camera: &CameraDescription) -> (CameraDescription, bool) {
-    let toml = camera_toml(camera) + "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }";
+fn read_back(camera: &CameraDescription, stated: bool) -> (CameraDescription, bool) {
+    let toml =
+        camera_toml(camera, stated) + "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }";
     let file = parse("written.toml", &toml, &Files::none()).unwrap();
     (file.camera, file.viewport_stated)
 }
@@ -28,22 +29,24 @@ fn a_camera_reads_back_to_the_last_bit() {
             viewport: [1.0 / 3.0, 123_456.79],
             image: [641, 479],
         };
-        let (read, viewport_stated) = read_back(&camera);
+        let (read, viewport_stated) = read_back(&camera, false);
         assert_eq!(format!("{read:?}"), format!("{camera:?}"));
         assert!(viewport_stated);
     }
 }
 
 #[test]
-fn a_viewport_that_follows_from_the_image_is_not_stated() {
+fn a_viewport_that_follows_from_the_image_is_stated_on_request_only() {
     let camera = CameraDescription::default();
-    assert_eq!(read_back(&camera), (camera, false));
+    for stated in [false, true] {
+        assert_eq!(read_back(&camera, stated), (camera, stated));
+    }
 }
 
 #[test]
 fn a_path_is_written_so_that_it_reads_back() {
     for path in ["a b.obj", "quote\"d", "back\\slash", "línea\n\t.obj", "'''\"\"\"", ""] {
-        let toml = framed_mesh_toml(&CameraDescription::default(), path);
+        let toml = framed_mesh_toml(&CameraDescription::default(), false, path);
         let table: toml::Table = toml.parse().unwrap();
         assert_eq!(table["object"][0]["mesh"].as_str(), Some(path));
     }

@@ -7,25 +7,26 @@ use std::fmt::Write;
 
 /// Writes the text of a scene file that shows one mesh file from a camera.
 ///
-/// The text reads back as the same camera, bit for bit. A viewport that follows from the image is left out, so that
-/// another image size changes the viewport as well. The path `mesh` is relative to the folder of the scene file.
+/// The text reads back as the same camera, bit for bit. A viewport that follows from the image is left out unless it is
+/// stated: then another image size keeps both its sides, else it changes the viewport as well. The path `mesh` is relative
+/// to the folder of the scene file.
 ///
 /// ```
 /// use bothways_common::CameraDescription;
 /// use bothways_formats::scene_file::framed_mesh_toml;
 ///
-/// let toml = framed_mesh_toml(&CameraDescription::default(), "bunny.obj");
+/// let toml = framed_mesh_toml(&CameraDescription::default(), false, "bunny.obj");
 /// assert!(toml.ends_with("[[object]]\nmesh = \"bunny.obj\"\n"));
 /// ```
-pub fn framed_mesh_toml(camera: &CameraDescription, mesh: &str) -> String {
-    let mut toml = camera_toml(camera);
+pub fn framed_mesh_toml(camera: &CameraDescription, viewport_stated: bool, mesh: &str) -> String {
+    let mut toml = camera_toml(camera, viewport_stated);
     let path = toml::Value::from(mesh);
     write!(toml, "\n[[object]]\nmesh = {path}\n").expect("a string has room");
     toml
 }
 
 /// The `[camera]` table.
-pub(super) fn camera_toml(camera: &CameraDescription) -> String {
+pub(super) fn camera_toml(camera: &CameraDescription, viewport_stated: bool) -> String {
     let CameraDescription { projection, eye, orientation, distance, viewport, image } = *camera;
     let mut lines = vec!["[camera]".to_owned()];
     if projection == Projection::Parallel {
@@ -45,7 +46,7 @@ pub(super) fn camera_toml(camera: &CameraDescription) -> String {
     }
     // `{:?}` writes the fewest digits that read back as the same number, always as a decimal number.
     lines.push(format!("distance = {distance:?}"));
-    if viewport != square_pixels(image) {
+    if viewport_stated || viewport != square_pixels(image) {
         lines.push(format!("viewport = {viewport:?}"));
     }
     lines.push(format!("image = {image:?}\n"));

@@ -100,7 +100,7 @@ pub fn command(finding: &Finding, path: &str) -> String {
 /// The `[camera]` table: that of a scene with one mesh, without the mesh. A camera's viewport is left out where it follows
 /// from the image, and then reads back as the same.
 fn camera(case: &Case) -> String {
-    let file = framed_mesh_toml(&case.camera, "");
+    let file = framed_mesh_toml(&case.camera, false, "");
     let (camera, _) = file.split_once("\n[[object]]\n").expect("it has one object");
     camera.to_owned()
 }

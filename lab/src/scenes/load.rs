@@ -217,7 +217,7 @@ pub fn load_file(file: &InputFile, image: Option<[u32; 2]>) -> Result<LoadedScen
     let (shapes, missing) = format.read_shapes(file)?;
     let camera = framing_for(image).camera_of_shapes(&shapes);
     let wrong = |error| LoadError::Framing { path: file.name(), error };
-    of_shapes(file.path(), shapes, &missing, camera.map_err(wrong)?)
+    of_shapes(file.path(), shapes, &missing, (camera.map_err(wrong)?, false))
 }
 
 /// Whether the name is that of a scene file.
@@ -265,35 +265,33 @@ fn load_with_camera(
         return Err(LoadError::NoCamera { path, name: name.to_owned(), names });
     };
     let mut camera = CameraDescription { image: image.unwrap_or(camera.image), ..*camera };
-    let [width, height] = camera.image.map(|side| side as f32);
-    let of_square_pixels = [width / height, 1.0];
     if !aspect_stated {
-        camera.viewport = of_square_pixels;
+        let [width, height] = camera.image.map(|side| side as f32);
+        camera.viewport = [width / height, 1.0];
     }
     let shown = path.display().to_string();
     let camera_error = |error: CameraError| LoadError::Camera { path: shown.clone(), error };
     Camera::new(camera).map_err(camera_error)?;
-    let viewport_stated = camera.viewport != of_square_pixels;
-    Ok(LoadedScene { viewport_stated, ..of_shapes(path, shapes, &warnings, camera)? })
+    of_shapes(path, shapes, &warnings, (camera, *aspect_stated))
 }
 
-/// What a mesh file shows, in the studio, before a camera.
+/// What a mesh file shows, in the studio, before a camera; and whether the camera's viewport is stated.
 fn of_shapes(
     path: &Path,
     shapes: Vec<Shape>,
     missing: &[MaterialWarning],
-    camera: CameraDescription,
+    (camera, viewport_stated): (CameraDescription, bool),
 ) -> Result<LoadedScene, LoadError> {
     let warnings = missing.iter().map(ToString::to_string).collect();
     let shown = path.display().to_string();
     let has_look = shapes.iter().filter_map(Shape::mesh).any(Mesh::has_look);
     let material = studio::material_for(has_look);
-    let toml = studio::toml(&camera, &shown, material.is_some());
+    let toml = studio::toml(&camera, viewport_stated, &shown, material.is_some());
     let material = material.unwrap_or_else(|| shapes::own_material(&shapes));
     let shapes = smooth::shapes_with_normals(shapes, smooth::CREASE).into_iter();
     let objects = shapes.map(|shape| Object { shape, material: material.clone() }).collect();
     let scene = studio::lit(Scene::new(objects)?);
-    Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml, warnings })
+    Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated, toml, warnings })
 }
 
 /// The file's name without its folder and extension.

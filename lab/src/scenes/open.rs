@@ -100,7 +100,7 @@ pub fn open_stream(source: &str, image: Option<[u32; 2]>) -> Result<StreamedScen
         scene: studio::lit(Scene::new(Vec::new())?),
         camera,
         viewport_stated: false,
-        toml: studio::toml(&camera, source, true),
+        toml: studio::toml(&camera, false, source, true),
         warnings: mesh.material_warning().iter().map(ToString::to_string).collect(),
     };
     let look = Box::new(Look {

@@ -36,9 +36,15 @@ ambient = true
 intensity = 0.14
 ";
 
-/// The scene file that shows a mesh file from a camera; a mesh with its own materials keeps them.
-pub(super) fn toml(camera: &CameraDescription, mesh: &str, plaster: bool) -> String {
-    let file = framed_mesh_toml(camera, mesh);
+/// The scene file that shows a mesh file from a camera, whose viewport may be stated; a mesh with its own materials keeps
+/// them.
+pub(super) fn toml(
+    camera: &CameraDescription,
+    viewport_stated: bool,
+    mesh: &str,
+    plaster: bool,
+) -> String {
+    let file = framed_mesh_toml(camera, viewport_stated, mesh);
     let (camera, object) = file.split_once("\n[[object]]\n").expect("it has one object");
     let [material, name] = if plaster { [PLASTER, "material = \"plaster\"\n"] } else { ["", ""] };
     format!("{camera}{BACKGROUND}{material}{LIGHTS}\n[[object]]\n{object}{name}")

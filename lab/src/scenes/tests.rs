@@ -77,3 +77,27 @@ fn a_mesh_file_is_framed_and_its_scene_file_reads_back() {
     assert!(says.ends_with("all triangles lie in one point, so no camera can frame them"));
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// A triangle and a camera that states an aspect ratio of 2.
+const WITH_CAMERA: &str = r#"{ "asset": { "version": "2.0" },
+"nodes": [{ "mesh": 0 }, { "camera": 0, "translation": [0, 0, 4] }],
+"cameras": [{ "name": "wide", "type": "perspective", "perspective": { "yfov": 0.8, "aspectRatio": 2, "znear": 1 } }],
+"meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+"accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0] }],
+"bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+"buffers": [{ "byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }] }"#;
+
+#[test]
+fn the_scene_file_of_a_gltf_camera_keeps_its_aspect_ratio() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.gltf"), WITH_CAMERA).unwrap();
+    let source = folder.path().join("a.gltf#wide").display().to_string();
+    let load = |image| load_with(&source, LoadOptions { image, ..LoadOptions::default() }).unwrap();
+    let loaded = load(None);
+    let files = Files::in_folder(folder.path(), Reach::Folder);
+    let again = scene_file::parse("again.toml", &loaded.toml, &files).unwrap();
+    assert_eq!((again.camera, again.viewport_stated), (loaded.camera, true));
+    // So both keep the viewport in an image of another shape.
+    let square = load(Some([40, 40]));
+    assert_eq!((square.camera.viewport, square.viewport_stated), ([2.0, 1.0], true));
+}
