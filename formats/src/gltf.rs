@@ -8,8 +8,11 @@
 //! - The nodes of the default scene (or of the first, or all nodes if there is no scene), each with its transformation: all are
 //!   composed in `f64`, and each vertex is rounded to `f32` once. Nodes come in the order of the file, children behind their
 //!   parent, and a mesh that several nodes name is there several times: the order of the triangles is the order of ids.
-//! - A large mesh that several nodes name is stored once: nodes in a row become [`Instances`](bothways_common::scene::Instances)
-//!   of it, 48 bytes each, with the numbers of their maps rounded to `f32`. [`read_as_one`] copies all of them instead.
+//! - Where a node states `EXT_mesh_gpu_instancing` (Khronos, 2022), its mesh is there once for each instance, in the order of the
+//!   accessors, as if the node had children with these transformations: at most 2²⁴ in all. Attributes of an application's own
+//!   are not read.
+//! - A large mesh that is there several times is stored once: nodes in a row become [`Instances`](bothways_common::scene::Instances)
+//!   of it, 48 bytes for each place, with the numbers of their maps rounded to `f32`. [`read_as_one`] copies all of them instead.
 //! - `POSITION`, `NORMAL`, `COLOR_0` and the texture coordinates of the base colour of primitives of triangles, strips and fans; also sparse, and as integers
 //!   (`KHR_mesh_quantization`). Points and lines are skipped.
 //! - The base colour of materials: its factor, its texture with the sampler's filters and ways to wrap, and the colours of vertices,
@@ -26,10 +29,10 @@
 //!
 //! | What | Rule |
 //! |---|---|
-//! | Type | `VEC3` for `POSITION` and `NORMAL`, `VEC2` for texture coordinates, `VEC3` or `VEC4` for `COLOR_0`, `SCALAR` for indices |
-//! | Components | floats; for texture coordinates and colours normalized unsigned bytes or shorts as well; what `KHR_mesh_quantization` adds, if the file uses it; for indices unsigned bytes, shorts or ints |
+//! | Type | `VEC3` for `POSITION` and `NORMAL`, `VEC2` for texture coordinates, `VEC3` or `VEC4` for `COLOR_0`, `SCALAR` for indices; for instances `VEC3` for `TRANSLATION` and `SCALE`, `VEC4` for `ROTATION` |
+//! | Components | floats; for texture coordinates and colours normalized unsigned bytes or shorts as well; what `KHR_mesh_quantization` adds, if the file uses it; for indices unsigned bytes, shorts or ints; for `ROTATION` of instances normalized bytes or shorts as well |
 //! | `normalized` | for bytes and shorts of attributes alone: neither floats nor indices are normalized |
-//! | `count` | at least 1, and the same for all attributes of a primitive |
+//! | `count` | at least 1, and the same for all attributes of a primitive, and for all of a node's instances |
 //! | `byteOffset` | in the view and in the buffer a multiple of the size of a component; for attributes in the view also of 4 |
 //! | `byteStride` | a multiple of 4 from 4 to 252, no less than an element; for attributes only. Without it elements of attributes have a multiple of 4 bytes |
 //! | End | `byteOffset + byteStride × (count − 1)` and one element more are in the view, the view in its buffer, and the buffer in its data |
@@ -52,6 +55,7 @@ mod error;
 mod item;
 mod mesh;
 mod nodes;
+mod places;
 mod shapes;
 mod texture;
 
@@ -63,7 +67,7 @@ use crate::warning::MaterialWarning;
 use ::gltf::json::Root;
 use bothways_common::scene::{Mesh, Shape};
 use buffers::Buffers;
-use item::{Located, QUANTIZATION};
+use item::{INSTANCING, Located, QUANTIZATION};
 use mesh::Meshes;
 use std::borrow::Cow;
 use texture::Textures;
@@ -171,8 +175,9 @@ fn read_model(file: &str, bytes: &[u8], files: &Files, sharing: bool) -> Result<
     let buffers = Buffers::read(&root, container.bin, files)?;
     let placed = nodes::placed(&root)?;
     let cameras = camera::cameras(&root, &placed)?;
+    let places = places::places(&root, &buffers, &placed)?;
     let mut meshes = Meshes::new(&root, &buffers, Textures::new(&root, &buffers, files));
-    let shapes = shapes::shapes(&root, &mut meshes, &placed, sharing)?;
+    let shapes = shapes::shapes(&root, &mut meshes, &places, sharing)?;
     Ok(Model { shapes, cameras, warnings: meshes.textures.warnings(file) })
 }
 
@@ -191,7 +196,7 @@ fn check_version(root: &Root) -> Result<(), GltfFault> {
 }
 
 /// The extensions that a file may require.
-const READ_EXTENSIONS: [&str; 2] = [QUANTIZATION, "KHR_texture_transform"];
+const READ_EXTENSIONS: [&str; 3] = [QUANTIZATION, INSTANCING, "KHR_texture_transform"];
 
 #[cfg(test)]
 mod tests;

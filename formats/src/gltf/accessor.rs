@@ -20,13 +20,18 @@ pub(super) enum Role {
     TextureCoordinates,
     /// Of three components; a fourth, the opacity, is not read.
     Colors,
+    /// Translations or scales of instances.
+    Vectors,
+    /// Rotations of instances.
+    Quaternions,
     Indices,
 }
 
 impl Role {
     fn kind(self) -> (Type, &'static str) {
         match self {
-            Role::Positions | Role::Normals => (Type::Vec3, "VEC3"),
+            Role::Positions | Role::Normals | Role::Vectors => (Type::Vec3, "VEC3"),
+            Role::Quaternions => (Type::Vec4, "VEC4"),
             Role::TextureCoordinates => (Type::Vec2, "VEC2"),
             Role::Colors => (Type::Vec3, "VEC3 or VEC4"),
             Role::Indices => (Type::Scalar, "SCALAR"),
@@ -56,8 +61,8 @@ impl Role {
                 is_float || matches!(component, U8 | U16) && is_normalized,
                 "floats, or normalized unsigned bytes or shorts",
             ),
-            (Role::Positions | Role::Normals, false) => (is_float, "floats"),
-            (Role::Normals, true) => (
+            (Role::Positions | Role::Normals, false) | (Role::Vectors, _) => (is_float, "floats"),
+            (Role::Normals, true) | (Role::Quaternions, _) => (
                 is_float || matches!(component, I8 | I16) && is_normalized,
                 "floats, or normalized bytes or shorts",
             ),

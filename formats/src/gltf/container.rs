@@ -58,14 +58,17 @@ fn number(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
 }
 
-/// The most objects in the JSON, and the most items of lists and objects. In memory an object takes some 400 bytes, and an
-/// item up to 32, whatever they take in the file: together 1 GiB.
+/// The most objects in the JSON, the most names in them, and the most items of lists and objects. In memory an object takes up
+/// to 1 KB, and of extensions, which are kept, a name takes 160 bytes and an item up to 32, whatever they take in the file:
+/// together less than 3 GiB.
 const MOST_OBJECTS: usize = 1 << 20;
+const MOST_NAMES: usize = 1 << 23;
 const MOST_ITEMS: usize = 1 << 24;
 
 /// Parses the JSON. Nothing that it says has been checked.
 pub(super) fn root(json: &[u8]) -> Result<Root, GltfFault> {
-    let limits = [(b'{', MOST_OBJECTS, "objects"), (b',', MOST_ITEMS, "items")];
+    let limits =
+        [(b'{', MOST_OBJECTS, "objects"), (b':', MOST_NAMES, "names"), (b',', MOST_ITEMS, "items")];
     for (byte, most, what) in limits {
         if memchr::memchr_iter(byte, json).count() > most {
             return Err(GltfFault::TooMuchJson { most, what });

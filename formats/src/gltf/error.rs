@@ -76,6 +76,16 @@ pub enum GltfFault {
     OutOfRange { vertex: usize },
     #[error("it moves its mesh where no f32 number reaches")]
     InstanceOutOfRange,
+    #[error("its EXT_mesh_gpu_instancing must state attributes, each by the number of an accessor")]
+    InstanceAttributes,
+    #[error("its EXT_mesh_gpu_instancing names none of TRANSLATION, ROTATION and SCALE")]
+    NoInstances,
+    #[error(
+        "its EXT_mesh_gpu_instancing has {count} elements of {attribute}, but {other_count} of {other}"
+    )]
+    InstanceCount { attribute: &'static str, count: usize, other: &'static str, other_count: usize },
+    #[error("with it, the scene has {count} instances of meshes; at most {most} are read")]
+    TooManyInstances { count: usize, most: usize },
     #[error("it has no uri, and the file has no binary part that would be meant")]
     NoData,
     #[error("the URI {} cannot be read; {help}", quoted(.uri))]

@@ -9,6 +9,9 @@ pub(super) type Located = (String, GltfFault);
 /// The extension that allows integers as positions and normals.
 pub(super) const QUANTIZATION: &str = "KHR_mesh_quantization";
 
+/// The extension that puts the mesh of a node at several places.
+pub(super) const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
 /// The item of a list that a file names by its index.
 pub(super) fn item<'a, T, U>(
     list: &'a [T],

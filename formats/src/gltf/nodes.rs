@@ -84,20 +84,26 @@ fn transform(node: &Node) -> Result<DMat4, GltfFault> {
         Some(matrix) => DMat4::from_cols_array(&matrix.map(f64::from)),
         None if !has_parts => DMat4::IDENTITY,
         None => {
-            let UnitQuaternion(rotation) = node.rotation.unwrap_or_default();
-            let rotation = DQuat::from_array(rotation.map(f64::from));
-            // Written in `f32`, it is nearly of unit length.
-            let rotation = if rotation.length_squared() > 0.0 {
-                rotation.normalize()
-            } else {
-                DQuat::IDENTITY
-            };
-            let vector = |numbers: Option<[f32; 3]>, without: DVec3| {
-                numbers.map_or(without, |numbers| DVec3::from(numbers.map(f64::from)))
-            };
-            let (scale, translation) =
-                (vector(node.scale, DVec3::ONE), vector(node.translation, DVec3::ZERO));
-            DMat4::from_scale_rotation_translation(scale, rotation, translation)
+            let rotation = node.rotation.map(|UnitQuaternion(rotation)| rotation);
+            composed(node.scale, rotation, node.translation)
         }
     })
+}
+
+/// The transformation that scales, then rotates, then translates, as far as each is stated.
+pub(super) fn composed(
+    scale: Option<[f32; 3]>,
+    rotation: Option<[f32; 4]>,
+    translation: Option<[f32; 3]>,
+) -> DMat4 {
+    let rotation =
+        rotation.map_or(DQuat::IDENTITY, |numbers| DQuat::from_array(numbers.map(f64::from)));
+    // Written in `f32`, it is nearly of unit length.
+    let rotation =
+        if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
+    let vector = |numbers: Option<[f32; 3]>, without: DVec3| {
+        numbers.map_or(without, |numbers| DVec3::from(numbers.map(f64::from)))
+    };
+    let (scale, translation) = (vector(scale, DVec3::ONE), vector(translation, DVec3::ZERO));
+    DMat4::from_scale_rotation_translation(scale, rotation, translation)
 }

@@ -1,9 +1,9 @@
-//! The shapes of a scene: meshes, and instances of those that many nodes name.
+//! The shapes of a scene: meshes, and instances of those that are at many places.
 
 use super::error::GltfFault;
 use super::item::Located;
 use super::mesh::{Builder, Meshes};
-use super::nodes::Placed;
+use super::places::Places;
 use ::gltf::json::Root;
 use ::gltf::json::mesh::{Primitive, Semantic};
 use ::gltf::json::validation::Checked;
@@ -17,36 +17,36 @@ const FEWEST: u64 = 64;
 /// Meshes whose copies have fewer triangles together are copied: that takes some megabytes.
 const WORTH_SHARING: u64 = 1 << 16;
 
-/// The shapes of all nodes, in the order of the nodes.
+/// The shapes of all nodes, in the order of the nodes, and of the places that each has.
 ///
-/// With `sharing`, a mesh that is large and that several nodes name is stored once: nodes that follow one another and name it
-/// become its instances. All others are copied to where their nodes are, into as few meshes as that order allows.
+/// With `sharing`, a mesh that is large and that is at several places is stored once: nodes that follow one another and name it
+/// become its instances. All others are copied to their places, into as few meshes as that order allows.
 pub(super) fn shapes(
     root: &Root,
     meshes: &mut Meshes,
-    placed: &[Placed],
+    places: &[Places],
     sharing: bool,
 ) -> Result<Vec<Shape>, Located> {
-    let is_shared = if sharing { shared(root, placed) } else { vec![false; root.meshes.len()] };
+    let is_shared = if sharing { shared(root, places) } else { vec![false; root.meshes.len()] };
     let mut known: BTreeMap<usize, Arc<Mesh>> = BTreeMap::new();
     let (mut shapes, mut copied) = (Vec::new(), Builder::default());
-    let mut places = placed.iter().filter(|place| place.node.mesh.is_some()).peekable();
-    while let Some(place) = places.next() {
-        let shared = mesh_of(place).filter(|&number| is_shared.get(number) == Some(&true));
+    let mut waiting = places.iter().peekable();
+    while let Some(places) = waiting.next() {
+        let shared = places.mesh().filter(|&number| is_shared.get(number) == Some(&true));
         let Some(number) = shared else {
-            meshes.add(&mut copied, place, &place.world_from_node)?;
+            copy(meshes, &mut copied, places)?;
             continue;
         };
         let mesh = match known.get(&number) {
             Some(mesh) => Arc::clone(mesh),
             None => {
                 let mut builder = Builder::default();
-                meshes.add(&mut builder, place, &DMat4::IDENTITY)?;
+                meshes.add(&mut builder, places.of, &DMat4::IDENTITY)?;
                 Arc::clone(known.entry(number).or_insert(Arc::new(builder.finish())))
             }
         };
-        let mut run = vec![place];
-        while let Some(next) = places.next_if(|next| mesh_of(next) == Some(number)) {
+        let mut run = vec![places];
+        while let Some(next) = waiting.next_if(|next| next.mesh() == Some(number)) {
             run.push(next);
         }
         if !mesh.triangles().is_empty() {
@@ -63,35 +63,47 @@ fn taken(builder: &mut Builder) -> Option<Shape> {
     (!builder.is_empty()).then(|| Shape::Mesh(std::mem::take(builder).finish()))
 }
 
-fn mesh_of(place: &Placed) -> Option<usize> {
-    place.node.mesh.map(|index| index.value())
+/// Copies a mesh to all of its places.
+fn copy(meshes: &mut Meshes, copied: &mut Builder, places: &Places) -> Result<(), Located> {
+    for (k, world_from_mesh) in places.world_from_mesh().enumerate() {
+        let added = meshes.add(copied, places.of, &world_from_mesh);
+        added.map_err(|(place, fault)| match fault {
+            GltfFault::OutOfRange { .. } => places.located(k, fault),
+            _ => (place, fault),
+        })?;
+    }
+    Ok(())
 }
 
-/// A mesh where these nodes are.
-fn instances(mesh: Arc<Mesh>, run: &[&Placed]) -> Result<Instances, Located> {
-    let placement =
-        |place: &&Placed| Placement::from_affine(&DAffine3::from_mat4(place.world_from_node));
-    Instances::new(mesh, run.iter().map(placement).collect()).map_err(|error| {
+/// A mesh at the places of these nodes.
+fn instances(mesh: Arc<Mesh>, run: &[&Places]) -> Result<Instances, Located> {
+    let maps = run.iter().flat_map(|places| places.world_from_mesh());
+    let placements = maps.map(|map| Placement::from_affine(&DAffine3::from_mat4(map))).collect();
+    Instances::new(mesh, placements).map_err(|error| {
         let (InstancesError::NotFinite { instance } | InstancesError::OutOfRange { instance }) =
             error;
-        run[instance].located(GltfFault::InstanceOutOfRange)
+        let mut of_all =
+            run.iter().flat_map(|places| (0..places.count()).map(move |k| (places, k)));
+        let (places, k) = of_all.nth(instance).expect("it is one of them");
+        places.located(k, GltfFault::InstanceOutOfRange)
     })
 }
 
 /// Which meshes are shared.
-fn shared(root: &Root, placed: &[Placed]) -> Vec<bool> {
-    let mut nodes = vec![0_u64; root.meshes.len()];
-    for number in placed.iter().filter_map(mesh_of) {
-        if let Some(nodes) = nodes.get_mut(number) {
-            *nodes += 1;
+fn shared(root: &Root, places: &[Places]) -> Vec<bool> {
+    let mut counts = vec![0_u64; root.meshes.len()];
+    for places in places {
+        let count = places.mesh().and_then(|number| counts.get_mut(number));
+        if let Some(count) = count {
+            *count += places.count() as u64;
         }
     }
-    let is_shared = |(mesh, nodes): (&::gltf::json::Mesh, u64)| {
+    let is_shared = |(mesh, count): (&::gltf::json::Mesh, u64)| {
         let triangles = mesh.primitives.iter().map(|primitive| stated_triangles(root, primitive));
         let triangles = triangles.fold(0, u64::saturating_add);
-        nodes > 1 && triangles >= FEWEST && triangles.saturating_mul(nodes) > WORTH_SHARING
+        count > 1 && triangles >= FEWEST && triangles.saturating_mul(count) > WORTH_SHARING
     };
-    root.meshes.iter().zip(nodes).map(is_shared).collect()
+    root.meshes.iter().zip(counts).map(is_shared).collect()
 }
 
 /// About how many triangles a primitive has, as it states them: nothing has been checked.

@@ -1,6 +1,7 @@
 //! Files that the reader accepts, files that break one rule each, and the messages.
 
 mod accessors;
+mod instancing;
 mod sharing;
 
 use super::*;
@@ -431,6 +432,8 @@ fn containers_and_versions_that_are_not_read_say_so() {
     assert_eq!(fault_of(b"glTF\x02\0\0\0"), "it should have 12 bytes, but has 8; is it truncated?");
     let objects = format!("{{\"nodes\":[{}]}}", vec!["{}"; 1 << 20].join(","));
     assert_eq!(fault_of(objects), "its JSON has more than 1048576 objects; split the scene up");
+    let names = format!("{{\"extensions\":{{{}}}}}", vec!["\"\":0"; 1 << 23].join(","));
+    assert_eq!(fault_of(names), "its JSON has more than 8388608 names; split the scene up");
 }
 
 #[test]

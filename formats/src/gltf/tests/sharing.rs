@@ -7,7 +7,7 @@ use bothways_common::scene::{Instances, Placement};
 const LAYERS: usize = 33;
 
 /// The square with many layers as mesh 0 and one triangle of it as mesh 1, and these nodes.
-fn with_nodes(nodes: &[String]) -> String {
+pub(super) fn with_nodes(nodes: &[String]) -> String {
     let data = data();
     let (start, indices) = data.split_at(128);
     let data = [start, &indices.repeat(LAYERS)].concat();
@@ -43,11 +43,11 @@ fn node(mesh: usize, k: usize) -> String {
     format!("{{ \"mesh\": {mesh}, \"translation\": [{k}, 0, -1], \"scale\": {scale} }}")
 }
 
-fn model(text: &str) -> Model {
+pub(super) fn model(text: &str) -> Model {
     parse("a", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn instances_of(shape: &Shape) -> &Instances {
+pub(super) fn instances_of(shape: &Shape) -> &Instances {
     let Shape::Instances(instances) = shape else { panic!("{shape:?}") };
     instances
 }
