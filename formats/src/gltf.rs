@@ -20,7 +20,9 @@
 //!   those that are missing.
 //! - Cameras, by name.
 //!
-//! Animations, skins and morph targets are not read: the mesh rests. A file that requires any other extension is refused.
+//! Animations, skins and morph targets are not read: the mesh rests as it lies in the file, where its node is. Materials that are
+//! not to be shaded (`KHR_materials_unlit`) are shaded. Warnings say so of skins, of morph targets with a weight, of such
+//! materials, and of textures at coordinates that a primitive lacks. A file that requires any other extension is refused.
 //!
 //! # The rules for accessors
 //!
@@ -58,6 +60,7 @@ mod nodes;
 mod places;
 mod shapes;
 mod texture;
+mod undrawn;
 
 pub use camera::GltfCamera;
 pub use error::{GltfFault, ReadGltfError};
@@ -71,6 +74,7 @@ use item::{INSTANCING, Located, QUANTIZATION};
 use mesh::Meshes;
 use std::borrow::Cow;
 use texture::Textures;
+use undrawn::Undrawn;
 
 /// The scene of a glTF file.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,7 +83,7 @@ pub struct Model {
     pub shapes: Vec<Shape>,
     /// The cameras, in the order of the nodes that hold them.
     pub cameras: Vec<GltfCamera>,
-    /// What of its colours is not drawn.
+    /// What of its colours and of its pose is not drawn.
     pub warnings: Vec<MaterialWarning>,
 }
 
@@ -176,9 +180,11 @@ fn read_model(file: &str, bytes: &[u8], files: &Files, sharing: bool) -> Result<
     let placed = nodes::placed(&root)?;
     let cameras = camera::cameras(&root, &placed)?;
     let places = places::places(&root, &buffers, &placed)?;
-    let mut meshes = Meshes::new(&root, &buffers, Textures::new(&root, &buffers, files));
+    let textures = Textures::new(&root, &buffers, files);
+    let mut meshes = Meshes::new(&root, &buffers, textures, Undrawn::of_nodes(&root, &places));
     let shapes = shapes::shapes(&root, &mut meshes, &places, sharing)?;
-    Ok(Model { shapes, cameras, warnings: meshes.textures.warnings(file) })
+    let warnings = meshes.textures.warnings(file).chain(meshes.undrawn.warnings(file)).collect();
+    Ok(Model { shapes, cameras, warnings })
 }
 
 /// Makes sure that the file is of a version that is read, and requires no extension that is not.
@@ -196,7 +202,8 @@ fn check_version(root: &Root) -> Result<(), GltfFault> {
 }
 
 /// The extensions that a file may require.
-const READ_EXTENSIONS: [&str; 3] = [QUANTIZATION, INSTANCING, "KHR_texture_transform"];
+const READ_EXTENSIONS: [&str; 4] =
+    [QUANTIZATION, INSTANCING, "KHR_materials_unlit", "KHR_texture_transform"];
 
 #[cfg(test)]
 mod tests;

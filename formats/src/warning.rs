@@ -1,4 +1,4 @@
-//! Warnings about mesh files that are read, but not drawn in all of their colours.
+//! Warnings about mesh files that are read, but not drawn in all of their colours, or not in their pose.
 
 use crate::source::quote::quoted;
 use std::fmt;
@@ -20,8 +20,8 @@ pub enum Missing {
     Unread,
 }
 
-/// What is missing of a mesh's materials. Triangles without one are drawn in the material of their object, which is light
-/// grey unless it states another.
+/// What is missing of a mesh's materials, and what else a mesh's file has and is not drawn. Triangles without a material are drawn
+/// in that of their object, which is light grey unless it states another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MaterialWarning {
     /// A material file is not there.
@@ -82,6 +82,28 @@ pub enum MaterialWarning {
         /// The mesh's file.
         file: String,
     },
+    /// Skins are not read.
+    Skins {
+        /// The mesh's file.
+        file: String,
+    },
+    /// Morph targets are not read, and some have a weight.
+    MorphTargets {
+        /// The mesh's file.
+        file: String,
+    },
+    /// Some materials are not to be shaded, but all are.
+    Unlit {
+        /// The mesh's file.
+        file: String,
+    },
+    /// Textures are read at coordinates that what has them lacks.
+    MissingCoordinates {
+        /// The mesh's file.
+        file: String,
+        /// The names of the attributes that would be these coordinates.
+        names: Vec<String>,
+    },
     /// The mesh is streamed, and streams do not read materials and colours.
     Streamed {
         /// The mesh's file.
@@ -131,6 +153,26 @@ impl fmt::Display for MaterialWarning {
             MaterialWarning::Textures { file } => write!(
                 f,
                 "{file}: some of its textures are of a kind that is not read; what has one is drawn in its base colour"
+            ),
+            MaterialWarning::Skins { file } => write!(
+                f,
+                "{file}: its skins are not read; a mesh that has one is drawn as it lies in the file, where its node \
+                 is"
+            ),
+            MaterialWarning::MorphTargets { file } => write!(
+                f,
+                "{file}: its morph targets are not read; a mesh that gives them a weight is drawn without them"
+            ),
+            MaterialWarning::Unlit { file } => write!(
+                f,
+                "{file}: some of its materials are unlit (KHR_materials_unlit); what has one is shaded like \
+                 everything else"
+            ),
+            MaterialWarning::MissingCoordinates { file, names } => write!(
+                f,
+                "{file}: some of its primitives lack {}, where their texture is read; they are drawn in their base \
+                 colour",
+                some_of(names)
             ),
             MaterialWarning::Streamed { file } => write!(
                 f,

@@ -6,6 +6,7 @@ use super::error::GltfFault;
 use super::item::{Located, item};
 use super::nodes::Placed;
 use super::texture::{Coordinates, Textures};
+use super::undrawn::Undrawn;
 use crate::attributes::{self, NONE, push_color};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::texture::Info;
@@ -23,6 +24,7 @@ pub(super) struct Meshes<'a> {
     root: &'a Root,
     buffers: &'a Buffers<'a>,
     pub(super) textures: Textures<'a>,
+    pub(super) undrawn: Undrawn,
     /// The name of each material of the file.
     names: Vec<String>,
     /// What the meshes that were read have together.
@@ -31,8 +33,13 @@ pub(super) struct Meshes<'a> {
 }
 
 impl<'a> Meshes<'a> {
-    pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, textures: Textures<'a>) -> Self {
-        Meshes { root, buffers, textures, names: names(root), triangles: 0, vertices: 0 }
+    pub(super) fn new(
+        root: &'a Root,
+        buffers: &'a Buffers<'a>,
+        textures: Textures<'a>,
+        undrawn: Undrawn,
+    ) -> Self {
+        Meshes { root, buffers, textures, undrawn, names: names(root), triangles: 0, vertices: 0 }
     }
 
     /// Adds the mesh that a node names, where the map puts it.
@@ -53,7 +60,7 @@ impl<'a> Meshes<'a> {
             })?;
             let Some(part) = part else { continue };
             let added = self.count(&part).and_then(|()| {
-                self.use_material(builder, primitive)?;
+                self.use_material(builder, primitive, &part)?;
                 builder.add(part, world_from_mesh)
             });
             added.map_err(|fault| place.located(fault))?;
@@ -77,6 +84,7 @@ impl<'a> Meshes<'a> {
         &mut self,
         builder: &mut Builder,
         primitive: &Primitive,
+        part: &MeshPart,
     ) -> Result<(), GltfFault> {
         let first = builder.triangles.len();
         let Some(index) = primitive.material else {
@@ -86,8 +94,12 @@ impl<'a> Meshes<'a> {
         let (number, material) = item(&self.root.materials, index, "material")?;
         let name = &self.names[number];
         builder.materials.use_from(first, Some(name));
-        let texture = material.pbr_metallic_roughness.base_color_texture.as_ref();
-        let texture = texture.map_or(Ok(None), |info| self.textures.of(info))?;
+        let info = material.pbr_metallic_roughness.base_color_texture.as_ref();
+        let texture = info.map_or(Ok(None), |info| self.textures.of(info))?;
+        self.undrawn.note_material(material);
+        if texture.is_some() && part.texture_coordinates.is_none() {
+            self.undrawn.note_lacking(Coordinates::of(info).set);
+        }
         builder.materials.define(name, Material { texture, ..material_of(material)? });
         Ok(())
     }

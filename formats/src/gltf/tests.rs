@@ -3,6 +3,7 @@
 mod accessors;
 mod instancing;
 mod sharing;
+mod undrawn;
 
 use super::*;
 use crate::source::Reach;
@@ -32,6 +33,9 @@ const SQUARE: &str = r#"{
 { "buffer": 0, "byteOffset": 96, "byteLength": 32 },
 { "buffer": 0, "byteOffset": 128, "byteLength": 12 }],
 "buffers": [{ "byteLength": 140, "uri": "DATA" }] }"#;
+
+/// The nodes of the square.
+const NODES: &str = "[{ \"mesh\": 0 }, { \"camera\": 0, \"name\": \"stand\" }]";
 
 const CORNERS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
@@ -432,7 +436,7 @@ fn containers_and_versions_that_are_not_read_say_so() {
     assert_eq!(fault_of(b"glTF\x02\0\0\0"), "it should have 12 bytes, but has 8; is it truncated?");
     let objects = format!("{{\"nodes\":[{}]}}", vec!["{}"; 1 << 20].join(","));
     assert_eq!(fault_of(objects), "its JSON has more than 1048576 objects; split the scene up");
-    let names = format!("{{\"extensions\":{{{}}}}}", vec!["\"\":0"; 1 << 23].join(","));
+    let names = format!("{{\"extensions\":{{{}", "\"\":0,".repeat(1 << 23));
     assert_eq!(fault_of(names), "its JSON has more than 8388608 names; split the scene up");
 }
 

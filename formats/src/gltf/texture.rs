@@ -77,9 +77,9 @@ impl<'a> Textures<'a> {
     }
 
     /// Warnings about pictures that are missing, or of a kind that is not read.
-    pub(super) fn warnings(&self, file: &str) -> Vec<MaterialWarning> {
+    pub(super) fn warnings(&self, file: &str) -> impl Iterator<Item = MaterialWarning> {
         let others = || MaterialWarning::Textures { file: file.to_owned() };
-        self.pictures.warnings(file).chain(self.has_others.then(others)).collect()
+        self.pictures.warnings(file).chain(self.has_others.then(others))
     }
 }
 

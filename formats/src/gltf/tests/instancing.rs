@@ -18,9 +18,6 @@ fn floats<const N: usize>(attribute: &'static str, values: &[[f32; N]]) -> List 
     List { attribute, kind, component: "5126", count: values.len(), bytes }
 }
 
-/// The nodes of the square, which tests change.
-const NODES: &str = "[{ \"mesh\": 0 }, { \"camera\": 0, \"name\": \"stand\" }]";
-
 /// A node of mesh 0, at the places of all lists, with more members.
 fn node_with(members: &str) -> String {
     let extension = "\"extensions\": { \"EXT_mesh_gpu_instancing\": ATTRIBUTES }";
