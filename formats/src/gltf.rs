@@ -16,7 +16,8 @@
 //! - `POSITION`, `NORMAL`, `COLOR_0` and the texture coordinates of the base colour of primitives of triangles, strips and fans; also sparse, and as integers
 //!   (`KHR_mesh_quantization`). Points and lines are skipped.
 //! - The base colour of materials: its factor, its texture with the sampler's filters and ways to wrap, and the colours of vertices,
-//!   all multiplied; `KHR_texture_transform` moves its coordinates. Opacity is not read. Pictures (PNG or JPEG) are in views, in `data:` URIs, or in files; a warning names
+//!   all multiplied; `KHR_texture_transform` moves its coordinates. A material of `KHR_materials_pbrSpecularGlossiness` has its diffuse
+//!   colour and texture instead, which are black for metals: its specular colour is not read. Opacity is not read. Pictures (PNG or JPEG) are in views, in `data:` URIs, or in files; a warning names
 //!   those that are missing.
 //! - Cameras, by name.
 //!
@@ -202,8 +203,13 @@ fn check_version(root: &Root) -> Result<(), GltfFault> {
 }
 
 /// The extensions that a file may require.
-const READ_EXTENSIONS: [&str; 4] =
-    [QUANTIZATION, INSTANCING, "KHR_materials_unlit", "KHR_texture_transform"];
+const READ_EXTENSIONS: [&str; 5] = [
+    QUANTIZATION,
+    INSTANCING,
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_unlit",
+    "KHR_texture_transform",
+];
 
 #[cfg(test)]
 mod tests;

@@ -94,7 +94,7 @@ impl<'a> Meshes<'a> {
         let (number, material) = item(&self.root.materials, index, "material")?;
         let name = &self.names[number];
         builder.materials.use_from(first, Some(name));
-        let info = material.pbr_metallic_roughness.base_color_texture.as_ref();
+        let (_, info) = base_of(material);
         let texture = info.map_or(Ok(None), |info| self.textures.of(info))?;
         self.undrawn.note_material(material);
         if texture.is_some() && part.texture_coordinates.is_none() {
@@ -191,7 +191,20 @@ fn triangles_of(
 /// The texture of a primitive's base colour.
 fn base_color_texture<'r>(root: &'r Root, primitive: &Primitive) -> Option<&'r Info> {
     let material = root.materials.get(primitive.material?.value())?;
-    material.pbr_metallic_roughness.base_color_texture.as_ref()
+    base_of(material).1
+}
+
+/// The factor and the texture of a material's base colour: those of the model that it states, or of specular and glossiness, which
+/// goes before (Khronos, "`KHR_materials_pbrSpecularGlossiness`", 2017), if it states both.
+fn base_of(material: &material::Material) -> ([f32; 4], Option<&Info>) {
+    let extensions = material.extensions.as_ref();
+    match extensions.and_then(|all| all.pbr_specular_glossiness.as_ref()) {
+        Some(stated) => (stated.diffuse_factor.0, stated.diffuse_texture.as_ref()),
+        None => {
+            let stated = &material.pbr_metallic_roughness;
+            (stated.base_color_factor.0, stated.base_color_texture.as_ref())
+        }
+    }
 }
 
 /// The triangles of so many corners, as the specification orders them in 3.7.2.1.
@@ -328,7 +341,7 @@ fn names(root: &Root) -> Vec<String> {
 
 /// A material in its base colour, which the format states in linear light.
 fn material_of(material: &material::Material) -> Result<Material, GltfFault> {
-    let [red, green, blue, _] = material.pbr_metallic_roughness.base_color_factor.0;
+    let ([red, green, blue, _], _) = base_of(material);
     let color = Vec3::new(red, green, blue);
     if color.to_array().iter().all(|component| (0.0..=1.0).contains(component)) {
         Ok(Material { color, ..Material::default() })

@@ -161,6 +161,40 @@ fn materials_have_their_base_color() {
     assert_eq!(says, "node 0: its base colour has a component that is not from 0 to 1");
 }
 
+#[test]
+fn a_diffuse_color_and_texture_go_before_those_of_the_base() {
+    const NAME: &str = "KHR_materials_pbrSpecularGlossiness";
+    let with = |base: &str, diffuse: &str| {
+        let material = format!(
+            "\"pbrMetallicRoughness\": {{ {base} }}, \"extensions\": {{ \"{NAME}\": {{ {diffuse} }} }}"
+        );
+        let images = "\"textures\": [{ \"source\": 0 }, { \"source\": 1 }], \"images\": [{ \"uri\": \"base.png\" }, \
+                      { \"uri\": \"diffuse.png\" }], \"cameras\": [";
+        let model = square(&[
+            ("\"indices\": 3", "\"indices\": 3, \"material\": 0"),
+            ("\"pbrMetallicRoughness\": { \"baseColorFactor\": [1, 0.25, 0, 1] }", &material),
+            ("\"cameras\": [", images),
+            ("\"extensionsUsed\": []", &format!("\"extensionsRequired\": [\"{NAME}\"]")),
+        ]);
+        let says: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
+        let has_coordinates = mesh_of(&model).texture_coordinates().of(0).is_some();
+        let color = mesh_of(&model).materials().unwrap().of(0).unwrap().color;
+        (color, has_coordinates, says.concat())
+    };
+    let base = "\"baseColorFactor\": [1, 0, 0, 1], \"baseColorTexture\": { \"index\": 0 }";
+    let diffuse =
+        "\"diffuseFactor\": [0, 0.5, 1, 1], \"diffuseTexture\": { \"index\": 1, \"texCoord\": 1 }";
+    let (color, has_coordinates, says) = with(base, diffuse);
+    assert_eq!(
+        (color, has_coordinates),
+        (Vec3::new(0.0, 0.5, 1.0), false),
+        "there is no TEXCOORD_1"
+    );
+    // No picture is there, and only the one that would be drawn is missed.
+    assert!(says.contains("\"diffuse.png\"") && !says.contains("base.png"), "{says}");
+    assert_eq!(with(base, ""), (Vec3::ONE, true, String::new()), "white if it states nothing");
+}
+
 /// The square with a texture of an image that is stated so.
 fn image(image: &str) -> [(&'static str, String); 3] {
     let texture = "[1, 0.25, 0, 1], \"baseColorTexture\": { \"index\": 0 }";
