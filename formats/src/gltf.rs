@@ -35,7 +35,7 @@
 //! | Type | `VEC3` for `POSITION` and `NORMAL`, `VEC2` for texture coordinates, `VEC3` or `VEC4` for `COLOR_0`, `SCALAR` for indices; for instances `VEC3` for `TRANSLATION` and `SCALE`, `VEC4` for `ROTATION` |
 //! | Components | floats; for texture coordinates and colours normalized unsigned bytes or shorts as well; what `KHR_mesh_quantization` adds, if the file uses it; for indices unsigned bytes, shorts or ints; for `ROTATION` of instances normalized bytes or shorts as well |
 //! | `normalized` | for bytes and shorts of attributes alone: neither floats nor indices are normalized |
-//! | `count` | at least 1, and the same for all attributes of a primitive, and for all of a node's instances |
+//! | `count` | at least 1, and the same for all attributes of a primitive, and for all lists of a node's instances |
 //! | `byteOffset` | in the view and in the buffer a multiple of the size of a component; for attributes in the view also of 4 |
 //! | `byteStride` | a multiple of 4 from 4 to 252, no less than an element; for attributes only. Without it elements of attributes have a multiple of 4 bytes |
 //! | End | `byteOffset + byteStride × (count − 1)` and one element more are in the view, the view in its buffer, and the buffer in its data |
