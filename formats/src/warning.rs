@@ -113,72 +113,83 @@ pub enum MaterialWarning {
 
 impl fmt::Display for MaterialWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place(), self.words())
+    }
+}
+
+impl MaterialWarning {
+    /// The file, and the line if it is known.
+    fn place(&self) -> String {
         match self {
-            MaterialWarning::MissingLibrary { file, library, why } => {
+            MaterialWarning::MissingPictures { file, line: Some(line), .. }
+            | MaterialWarning::UnreadColors { file, line, .. } => format!("{file}:{line}"),
+            MaterialWarning::MissingLibrary { file, .. }
+            | MaterialWarning::MissingLibraries { file, .. }
+            | MaterialWarning::Undefined { file, .. }
+            | MaterialWarning::FaceColors { file }
+            | MaterialWarning::PlyTextures { file }
+            | MaterialWarning::MissingPictures { file, .. }
+            | MaterialWarning::Textures { file }
+            | MaterialWarning::Skins { file }
+            | MaterialWarning::MorphTargets { file }
+            | MaterialWarning::Unlit { file }
+            | MaterialWarning::MissingCoordinates { file, .. }
+            | MaterialWarning::Streamed { file } => file.clone(),
+        }
+    }
+
+    /// What is missing, and what is drawn.
+    fn words(&self) -> String {
+        match self {
+            MaterialWarning::MissingLibrary { library, why, .. } => {
                 let missing = why.of("material file", &quoted(library));
-                write!(f, "{file}: {missing}; what needs it is drawn in light grey")
+                format!("{missing}; what needs it is drawn in light grey")
             }
-            MaterialWarning::MissingLibraries { file, more } => {
-                write!(f, "{file}: {more} more material files are missing beside it")
+            MaterialWarning::MissingLibraries { more, .. } => {
+                format!("{more} more material files are missing beside it")
             }
-            MaterialWarning::Undefined { file, names } => {
-                let some = some_of(names);
-                write!(
-                    f,
-                    "{file}: no material file defines {some}; what is made of it is drawn in \
-                     light grey"
-                )
-            }
-            MaterialWarning::FaceColors { file } => write!(
-                f,
-                "{file}: the colours of its faces are not read; all of it is drawn in the material of its \
-                 object"
-            ),
-            MaterialWarning::PlyTextures { file } => write!(
-                f,
-                "{file}: textures and texture coordinates of PLY files are not read; it is drawn without; export it as \
-                 OBJ or glTF to keep them"
-            ),
-            MaterialWarning::MissingPictures { file, line, names, why } => {
-                let missing = why.of("picture", &some_of(names));
-                let line = line.map_or(String::new(), |line| format!(":{line}"));
-                write!(f, "{file}{line}: {missing}; what has it as its texture is drawn without")
-            }
-            MaterialWarning::UnreadColors { file, line, names } => write!(
-                f,
-                "{file}:{line}: Kd of {} is stated as xyz or spectral, which is not read; what is made of it is \
-                 drawn in light grey; state three numbers",
+            MaterialWarning::Undefined { names, .. } => format!(
+                "no material file defines {}; what is made of it is drawn in light grey",
                 some_of(names)
             ),
-            MaterialWarning::Textures { file } => write!(
-                f,
-                "{file}: some of its textures are of a kind that is not read; what has one is drawn in its base colour"
+            MaterialWarning::MissingPictures { names, why, .. } => format!(
+                "{}; what has it as its texture is drawn without",
+                why.of("picture", &some_of(names))
             ),
-            MaterialWarning::Skins { file } => write!(
-                f,
-                "{file}: its skins are not read; a mesh that has one is drawn as it lies in the file, where its node \
-                 is"
-            ),
-            MaterialWarning::MorphTargets { file } => write!(
-                f,
-                "{file}: its morph targets are not read; a mesh that gives them a weight is drawn without them"
-            ),
-            MaterialWarning::Unlit { file } => write!(
-                f,
-                "{file}: some of its materials are unlit (KHR_materials_unlit); what has one is shaded like \
-                 everything else"
-            ),
-            MaterialWarning::MissingCoordinates { file, names } => write!(
-                f,
-                "{file}: some of its primitives lack {}, where their texture is read; they are drawn in their base \
-                 colour",
+            MaterialWarning::UnreadColors { names, .. } => format!(
+                "Kd of {} is stated as xyz or spectral, which is not read; what is made of it is drawn in light grey; \
+                 state three numbers",
                 some_of(names)
             ),
-            MaterialWarning::Streamed { file } => write!(
-                f,
-                "{file}: the materials and colours of a mesh that is streamed are not read; all of it is drawn \
-                 in light grey"
+            MaterialWarning::MissingCoordinates { names, .. } => format!(
+                "some of its primitives lack {}, where their texture is read; they are drawn in their base colour",
+                some_of(names)
             ),
+            MaterialWarning::FaceColors { .. } => {
+                "the colours of its faces are not read; all of it is drawn in the material of its object".into()
+            }
+            MaterialWarning::PlyTextures { .. } => {
+                "textures and texture coordinates of PLY files are not read; it is drawn without; export it as OBJ or \
+                 glTF to keep them"
+                    .into()
+            }
+            MaterialWarning::Textures { .. } => {
+                "some of its textures are of a kind that is not read; what has one is drawn in its base colour".into()
+            }
+            MaterialWarning::Skins { .. } => {
+                "its skins are not read; a mesh that has one is drawn as it lies in the file, where its node is".into()
+            }
+            MaterialWarning::MorphTargets { .. } => {
+                "its morph targets are not read; a mesh that gives them a weight is drawn without them".into()
+            }
+            MaterialWarning::Unlit { .. } => {
+                "some of its materials are unlit (KHR_materials_unlit); what has one is shaded like everything else"
+                    .into()
+            }
+            MaterialWarning::Streamed { .. } => {
+                "the materials and colours of a mesh that is streamed are not read; all of it is drawn in light grey"
+                    .into()
+            }
         }
     }
 }
