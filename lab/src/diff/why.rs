@@ -29,12 +29,14 @@ mod search;
 mod sentence;
 mod shown;
 mod size;
+mod snapped;
 mod suggestions;
 mod together;
 
 pub use convention::{
     Between, Change, Clip, Convention, Depth, Edges, Evidence, Faces, Field, Framing, Look, Moved,
     NearPlane, Omission, Part, Placement, Pose, Rays, Sampling, Several, ShapeKind, Stance,
+    Vertices,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};

@@ -10,6 +10,7 @@ mod placement;
 mod pose;
 mod sampling;
 mod stance;
+mod vertices;
 
 pub use field::Field;
 pub use framing::{Evidence, Framing};
@@ -18,7 +19,9 @@ pub use placement::Placement;
 pub use pose::Pose;
 pub use sampling::Sampling;
 pub use stance::{Moved, Stance};
+pub use vertices::Vertices;
 
+use crate::common::exact::Side;
 use crate::common::{Camera, Projection};
 use field::fields;
 use pose::poses;
@@ -42,6 +45,8 @@ pub struct Convention {
     pub look: Look,
     /// The way in which the rays spread.
     pub rays: Rays,
+    /// Where the corners of triangles lie on the raster.
+    pub vertices: Vertices,
     /// The edges that own their samples.
     pub edges: Edges,
     /// The faces that are drawn.
@@ -109,6 +114,20 @@ pub enum Edges {
     Exclusive,
 }
 
+impl Edges {
+    /// Whether an edge on this side of a triangle owns the samples that lie exactly on it.
+    pub(super) fn own(self, side: Side) -> bool {
+        match self {
+            Edges::TopLeft => matches!(side, Side::Left | Side::Top),
+            Edges::BottomLeft => matches!(side, Side::Left | Side::Bottom),
+            Edges::TopRight => matches!(side, Side::Right | Side::Top),
+            Edges::BottomRight => matches!(side, Side::Right | Side::Bottom),
+            Edges::Inclusive => true,
+            Edges::Exclusive => false,
+        }
+    }
+}
+
 /// The faces that are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Faces {
@@ -158,6 +177,8 @@ pub enum Change {
     Look(Look),
     /// Other rays.
     Rays(Rays),
+    /// Other places of vertices.
+    Vertices(Vertices),
     /// Another fill rule.
     Edges(Edges),
     /// Culled faces.
@@ -196,6 +217,7 @@ impl Change {
         let others = [Edges::BottomLeft, Edges::TopRight, Edges::BottomRight];
         changes.extend(others.map(Change::Edges));
         changes.extend([Edges::Inclusive, Edges::Exclusive].map(Change::Edges));
+        changes.extend(Vertices::OTHERS.map(Change::Vertices));
         changes
     }
 
@@ -216,6 +238,7 @@ impl Change {
             Change::Omission(_) => 11,
             Change::Pose(_) => 12,
             Change::Framing(_) => 13,
+            Change::Vertices(_) => 14,
         }
     }
 
@@ -226,6 +249,7 @@ impl Change {
             Change::Pose(_) => true,
             Change::Field(field) => field.is_rare(),
             Change::Columns(sampling) | Change::Rows(sampling) => sampling == Sampling::OneMore,
+            Change::Vertices(vertices) => vertices.is_nearly_exact(),
             _ => false,
         };
         self.axis() != other.axis() && !is_rare(self) && !is_rare(other)
@@ -236,10 +260,16 @@ impl Change {
         matches!(self, Change::Near(_) | Change::Far(_) | Change::Omission(_))
     }
 
-    /// Whether the change moves much of the picture, rather than a few samples that lie exactly on edges or at equal
+    /// Whether the change moves much of the picture, rather than a few samples that lie on edges, or nearly so, or at equal
     /// distances.
     pub fn is_coarse(self) -> bool {
-        !matches!(self, Change::Edges(_) | Change::Depth(Depth::FirstOfEqual | Depth::LastOfEqual))
+        let moves_few = matches!(self, Change::Vertices(vertices) if vertices.is_nearly_exact());
+        !self.is_rule_for_ties() && !moves_few
+    }
+
+    /// Whether it decides about samples exactly on edges, or at exactly equal distances, alone.
+    pub(super) fn is_rule_for_ties(self) -> bool {
+        matches!(self, Change::Edges(_) | Change::Depth(Depth::FirstOfEqual | Depth::LastOfEqual))
     }
 }
 
@@ -255,6 +285,7 @@ impl Convention {
             Change::Framing(framing) => Convention { framing, ..self },
             Change::Look(look) => Convention { look, ..self },
             Change::Rays(rays) => Convention { rays, ..self },
+            Change::Vertices(vertices) => Convention { vertices, ..self },
             Change::Edges(edges) => Convention { edges, ..self },
             Change::Faces(faces) => Convention { faces, ..self },
             Change::Depth(depth) => Convention { depth, ..self },
@@ -280,6 +311,7 @@ impl Convention {
             (self.framing != ours.framing).then_some(Change::Framing(self.framing)),
             (self.look != ours.look).then_some(Change::Look(self.look)),
             (self.rays != ours.rays).then_some(Change::Rays(self.rays)),
+            (self.vertices != ours.vertices).then_some(Change::Vertices(self.vertices)),
             (self.edges != ours.edges).then_some(Change::Edges(self.edges)),
             (self.faces != ours.faces).then_some(Change::Faces(self.faces)),
             (self.depth != ours.depth).then_some(Change::Depth(self.depth)),

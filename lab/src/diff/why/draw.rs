@@ -3,12 +3,13 @@
 //! The loop is the lecture's object order with bounding boxes. It decides in `f64` where the bound of the roundoff
 //! allows, and asks the exact judge elsewhere: a hypothesis is held against the pixels without noise of its own.
 
-use super::convention::{Convention, Depth, Edges, Faces, Look, Omission, Part};
+use super::convention::{Convention, Depth, Edges, Faces, Look, Omission, Part, Vertices};
 use super::outline::{
     Area, PlaneDistance, TriangleOutline, area_of_sphere, area_of_triangle, whole,
 };
 use super::rays::ViewingRays;
-use crate::common::exact::{CachedJudge, Comparison, Side};
+use super::snapped::{Snapped, SnappedTriangle};
+use crate::common::exact::{CachedJudge, Comparison};
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::DVec3;
 use crate::common::{Judge, Primitive, Projection, Ray, Sign, View};
@@ -172,21 +173,7 @@ enum Rounded {
 impl Canvas<'_> {
     fn add(&mut self, id: u32, primitive: &Primitive) {
         match primitive {
-            Primitive::Triangle(corners) => {
-                let area = area_of_triangle(corners, &self.rays, 0.0);
-                if self.rows_of(&area).is_empty() || area.columns.is_empty() {
-                    return;
-                }
-                let Some(outline) = TriangleOutline::new(corners, &self.rays) else { return };
-                let culled = match self.convention.faces {
-                    Faces::Both => false,
-                    Faces::BackCulled => !outline.is_front,
-                    Faces::FrontCulled => outline.is_front,
-                };
-                if !culled {
-                    self.add_triangle((id, primitive, corners), &outline, &area);
-                }
-            }
+            Primitive::Triangle(corners) => self.triangle((id, primitive, corners)),
             Primitive::Sphere { center, radius } => {
                 let area = area_of_sphere(*center, *radius, &self.rays, 0.0);
                 self.fill(id, primitive, &area, |canvas, row, column| {
@@ -238,6 +225,55 @@ impl Canvas<'_> {
             for column in self.columns(area) {
                 let at = rounded(self, row, column);
                 self.keep(id, primitive, [index, column], at);
+            }
+        }
+    }
+
+    fn triangle(&mut self, triangle @ (id, primitive, corners): (u32, &Primitive, &[DVec3; 3])) {
+        let vertices = self.convention.vertices;
+        // A corner on the grid may lie a pixel farther.
+        let margin = if vertices == Vertices::Projected { 0.0 } else { 1.0 };
+        let area = area_of_triangle(corners, &self.rays, margin);
+        if self.rows_of(&area).is_empty() || area.columns.is_empty() {
+            return;
+        }
+        let Some(outline) = TriangleOutline::new(corners, &self.rays) else { return };
+        let culled = match self.convention.faces {
+            Faces::Both => false,
+            Faces::BackCulled => !outline.is_front,
+            Faces::FrontCulled => outline.is_front,
+        };
+        if culled {
+            return;
+        }
+        match Snapped::new(corners, &self.rays, vertices) {
+            Snapped::Unmoved => self.add_triangle(triangle, &outline, &area),
+            Snapped::Triangle(snapped) => {
+                let plane = PlaneDistance::of_triangle(corners, &self.rays);
+                self.add_snapped((id, primitive), &snapped, &plane);
+            }
+            Snapped::Vanished => {}
+        }
+    }
+
+    fn add_snapped(
+        &mut self,
+        (id, primitive): (u32, &Primitive),
+        triangle: &SnappedTriangle,
+        plane: &PlaneDistance,
+    ) {
+        let area = triangle.area(&self.rays);
+        for index in self.rows_of(&area) {
+            let row = self.drawn.rows[index];
+            for column in triangle.columns(row, &area) {
+                if !triangle.covers(row, column, self.convention.edges) {
+                    continue;
+                }
+                let (t, error) = plane.t(self.rays.x[column], self.rays.y[row]);
+                // Beside the triangle, its plane may lie behind the eye, or infinitely far away.
+                if t > error {
+                    self.keep(id, primitive, [index, column], Rounded::Inside(t, error));
+                }
             }
         }
     }
@@ -433,16 +469,8 @@ pub(super) fn covers(judge: &Judge, edges: Edges, primitive: &Primitive, ray: &R
         return false;
     }
     let sides = judge.edge_sides(corners, ray, &signs);
-    let owned = |side: Side| match edges {
-        Edges::TopLeft => matches!(side, Side::Left | Side::Top),
-        Edges::BottomLeft => matches!(side, Side::Left | Side::Bottom),
-        Edges::TopRight => matches!(side, Side::Right | Side::Top),
-        Edges::BottomRight => matches!(side, Side::Right | Side::Bottom),
-        Edges::Inclusive => true,
-        Edges::Exclusive => false,
-    };
     signs.at_sample.iter().zip(sides).all(|(&sign, side)| match side {
-        Some(side) => owned(side),
+        Some(side) => edges.own(side),
         None => sign == signs.facing,
     })
 }
@@ -515,7 +543,9 @@ mod tests {
             let primitives: Vec<_> = view.primitives().collect();
             for change in Change::of_rendering(view.camera) {
                 let convention = Convention::default().with(change);
-                if convention.depth != Depth::Nearest || convention.faces != Faces::Both {
+                let is_of_the_nearest =
+                    convention.depth == Depth::Nearest && convention.faces == Faces::Both;
+                if !is_of_the_nearest || convention.vertices != Vertices::Projected {
                     continue;
                 }
                 let drawn = draw(view, &convention, Rows::ALL);

@@ -280,6 +280,14 @@ fn project(point: DVec3, rays: &ViewingRays) -> Place<[f64; 2]> {
     })
 }
 
+/// The place of a point that lies clearly in front of the eye.
+pub(super) fn project_ahead(point: DVec3, rays: &ViewingRays) -> Option<[f64; 2]> {
+    match project(point, rays) {
+        Place::Ahead(at) => Some(at),
+        Place::Behind | Place::Beside => None,
+    }
+}
+
 /// How deep a point lies in the direction of view.
 fn depth_along_axis(point: DVec3, rays: &ViewingRays) -> f64 {
     -point.dot(rays.w) * rays.distance.signum()

@@ -1,6 +1,6 @@
 //! The viewing rays of a renderer with other conventions.
 
-use super::convention::{Convention, Framing, Look, Rays};
+use super::convention::{Convention, Framing, Look, Rays, Sampling};
 use crate::common::glam::DVec3;
 use crate::common::{Camera, CameraDescription, Judge, Projection, Ray};
 use std::ops::{Index, Range};
@@ -19,6 +19,8 @@ pub(super) struct ViewingRays {
     pub(super) distance: f64,
     /// Whether the rays of a parallel camera begin at their own points of the viewport.
     pub(super) spread: bool,
+    /// Where the first sample lies in its pixel, in halves of the pixel from its upper left corner.
+    pub(super) twice_offsets: [f64; 2],
     axis: DVec3,
     extent: f64,
     /// How many rows and columns of rays a pixel has.
@@ -51,7 +53,7 @@ impl ViewingRays {
         };
         let description = CameraDescription { projection, ..*camera.description() };
         let framing = convention.framing;
-        let coordinates = |sampling: super::convention::Sampling, axis: usize| {
+        let coordinates = |sampling: Sampling, axis: usize| {
             let (side, n) = ([vw, vh][axis], [width, height][axis]);
             let spacing = side / f64::from(n);
             (0..n).map(move |index| {
@@ -78,6 +80,7 @@ impl ViewingRays {
             projection,
             distance,
             spread: convention.rays != Rays::OneOrigin,
+            twice_offsets: [convention.columns, convention.rows].map(Sampling::twice_offset),
             samples: 1,
             camera: Camera::new(description).expect("only the projection is another"),
         }
@@ -93,6 +96,13 @@ impl ViewingRays {
         let ([vw, vh], [width, height]) =
             (self.camera.viewport(), self.camera.image().map(f64::from));
         [vw / width, vh / height].map(|side| side * f64::from(self.samples))
+    }
+
+    /// The place of a point of the viewport on the raster, in pixels to the right of and below its upper left corner. It is not
+    /// finite where a picture has one column, or one row.
+    pub(super) fn on_raster(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [right, down] = self.twice_offsets;
+        [self.x.index(x) + right / 2.0, self.y.index(y) + down / 2.0]
     }
 
     /// The ray of pixel `(i, j)`.
@@ -151,6 +161,11 @@ impl Coordinates {
         self.values.len()
     }
 
+    /// The place among them: 0 for the first, 1 for the second.
+    fn index(&self, at: f64) -> f64 {
+        (at - self.values[0]) * self.per_spacing
+    }
+
     fn longest(&self) -> f64 {
         let ends = [self.values.first(), self.values.last()];
         ends.into_iter().flatten().map(|end| end.abs()).fold(0.0, f64::max)
@@ -162,7 +177,7 @@ impl Coordinates {
         if count <= 1 {
             return 0..count;
         }
-        let [a, b] = [low, high].map(|at| (at - self.values[0]) * self.per_spacing);
+        let [a, b] = [low, high].map(|at| self.index(at));
         if a.is_nan() || b.is_nan() {
             return 0..count;
         }
@@ -197,7 +212,7 @@ impl Index<usize> for Coordinates {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diff::why::convention::{Change, Field, Sampling};
+    use crate::diff::why::convention::{Change, Field};
 
     #[test]
     fn indices_are_those_between_two_coordinates() {

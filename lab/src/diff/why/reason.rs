@@ -235,8 +235,8 @@ impl Reason {
                 format!("the sample lies exactly on a corner of id {primitive}: {decision}")
             }
             Reason::DistanceTie { primitives: [seen, shown] } => format!(
-                "ids {seen} and {shown} are met at exactly the same distance: of equals the one is seen here, and \
-                 the other there"
+                "ids {seen} and {shown} are met at exactly the same distance: id {seen} is seen by the rule for ties, and \
+                 the renderer shows id {shown}"
             ),
             Reason::Rounding { primitive, pixels } => format!(
                 "the sample lies {} pixels from the outline of id {primitive}: rounding took it to the other side",

@@ -9,6 +9,7 @@ mod explanations;
 mod framing;
 mod least_squares;
 mod marks;
+mod nearly_right;
 mod pose;
 
 use super::candidate::{Candidate, as_good, parts};
@@ -178,6 +179,10 @@ impl Search<'_> {
         }
         if let Some(reason) = no_evidence(self.view, self.observed, self.truth) {
             return Finding::NoEvidence(reason);
+        }
+        let explanations = self.by_vertices();
+        if !explanations.is_empty() {
+            return Finding::Explained(explanations);
         }
         let mut finalists = self.finalists();
         finalists = self.improved(finalists, ours);
@@ -392,7 +397,7 @@ impl Search<'_> {
         let mut all = finalists.clone();
         let mut starts: Vec<Candidate> = finalists.iter().take(2).copied().collect();
         all.extend(starts.iter().flat_map(|start| self.with_tie_rules_instead(start, &changes)));
-        let placed = self.ours_in_place();
+        let placed = self.ours_in_place().convention;
         let ours = self.drawn_whole(placed);
         all.extend(self.with_suggestions(&ours));
         all.push(ours);
@@ -465,7 +470,7 @@ impl Search<'_> {
                 .par_iter()
                 .filter(|change| !taken.contains(&change.axis()))
                 .map(|&change| (change, best.convention.with(change)))
-                // What makes some rows no better is not drawn as a whole; few samples lie on ties.
+                // What makes some rows no better is not drawn as a whole; few samples lie on ties, or nearly on edges.
                 .filter(|(change, with)| {
                     !change.is_coarse() || self.differing_on_some_rows(*with) < on_rows
                 })
@@ -499,15 +504,15 @@ impl Search<'_> {
     fn with_tie_rules_instead(&self, candidate: &Candidate, changes: &[Change]) -> Vec<Candidate> {
         let axes: Vec<usize> =
             candidate.convention.changes().into_iter().map(Change::axis).collect();
-        let rules = changes.iter().filter(|rule| !rule.is_coarse() && axes.contains(&rule.axis()));
+        let rules =
+            changes.iter().filter(|rule| rule.is_rule_for_ties() && axes.contains(&rule.axis()));
         rules.map(|&rule| self.drawn_whole(candidate.convention.with(rule))).collect()
     }
 
     /// Our conventions, with the placement under which they fit best.
-    fn ours_in_place(&self) -> Convention {
+    fn ours_in_place(&self) -> Candidate {
         let placed = self.placed(Convention::default(), self.truth);
-        let best = placed.iter().min_by_key(|one| one.rank()).expect("one placement fits the file");
-        best.convention
+        *placed.iter().min_by_key(|one| one.rank()).expect("one placement fits the file")
     }
 
     /// Pairs of rules for exact ties besides a convention: which primitive owns an edge, and which is seen of equally near
@@ -515,7 +520,7 @@ impl Search<'_> {
     /// alone may explain nothing.
     fn tie_rules(&self, besides: Convention, changes: &[Change]) -> Vec<Candidate> {
         let rules: Vec<Change> =
-            changes.iter().copied().filter(|change| !change.is_coarse()).collect();
+            changes.iter().copied().filter(|change| change.is_rule_for_ties()).collect();
         let pairs: Vec<[Change; 2]> = rules
             .iter()
             .flat_map(|&one| rules.iter().map(move |&other| [one, other]))

@@ -4,7 +4,9 @@ mod camera;
 mod omission;
 mod stance;
 
-use super::convention::{Change, Convention, Depth, Edges, Faces, Look, Placement, Rays, Sampling};
+use super::convention::{
+    Change, Convention, Depth, Edges, Faces, Look, Placement, Rays, Sampling, Vertices,
+};
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::search::Explanation;
 use crate::common::{Camera, Projection};
@@ -119,6 +121,7 @@ fn sentence(
                 .into()
         }
         Change::Rays(rays) => of_rays(rays, projection).into(),
+        Change::Vertices(vertices) => of_vertices(vertices),
         Change::Edges(edges) => of_edges(edges).into(),
         Change::Faces(faces) => of_faces(faces).into(),
         Change::Depth(depth) => of_depth(depth).into(),
@@ -201,6 +204,24 @@ fn of_rays(rays: Rays, projection: Projection) -> &'static str {
         (Rays::OneOrigin, _) => {
             "lets all parallel rays begin at the eye, so that every pixel sees the same: begin at eye + x u + y v"
         }
+    }
+}
+
+fn of_vertices(vertices: Vertices) -> String {
+    match vertices {
+        Vertices::Projected => "leaves vertices where they are projected".into(),
+        Vertices::Rounded { bits: 0 } => {
+            "rounds vertices to whole pixels: keep the fractions of their raster coordinates, and round nothing before the \
+             edge functions"
+                .into()
+        }
+        Vertices::Rounded { bits } => format!(
+            "rounds vertices to 1/{} of a pixel, as GPUs do: its edges lie elsewhere by up to 1/{} of a pixel; here nothing \
+             is rounded",
+            1_u64 << bits,
+            // Along the diagonal of a cell.
+            (f64::from(bits + 1).exp2() / std::f64::consts::SQRT_2).floor()
+        ),
     }
 }
 

@@ -5,6 +5,7 @@ mod framing;
 mod stance;
 mod stance_of_distances;
 mod stance_of_mask;
+mod vertices;
 
 use super::draw::{Rows, draw};
 use super::*;

@@ -54,6 +54,12 @@ impl Sampling {
         }
     }
 
+    /// Where the first sample lies, in halves of a pixel from the left or upper edge of the picture.
+    #[expect(clippy::cast_precision_loss, reason = "small whole numbers")]
+    pub fn twice_offset(self) -> f64 {
+        self.numbers().0 as f64
+    }
+
     /// Whether `n` columns or rows can be sampled in this way.
     pub fn is_possible(self, n: u32) -> bool {
         i64::from(n) > self.numbers().1
