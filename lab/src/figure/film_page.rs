@@ -128,7 +128,7 @@ impl FilmPage<'_> {
         let clock = format!("work done: {} of {}", grouped(self.clock), count(self.whole, "steps"));
         let style = theme.heading().sized(28.0).tabular();
         page.drawing.text([RIGHT, CLOCK], Anchor::Right, &clock, style);
-        let what = "pixels finished, by the work done in each order";
+        let what = "pixels with their final colour, by the work done in each order";
         page.drawing.text([MARGIN, CLOCK], Anchor::Left, what, theme.text().of(theme.quiet()));
     }
 

@@ -35,7 +35,7 @@ pub enum Kind {
     Grid,
     /// Three half-planes of one triangle, and their intersection.
     EdgeFunctions,
-    /// One pixel's ray: every crossing at its t, the boxes it opened, what was tested, what won.
+    /// One pixel's ray: every primitive that it hits at its t, the boxes that it hits, what is tested, what is seen.
     Ray,
     /// Heat maps of the work at each pixel: both orders, textbook and fast, on one scale.
     Work,
@@ -109,7 +109,7 @@ impl Kind {
             }
             Kind::EdgeFunctions => "three half-planes of one triangle, and their intersection",
             Kind::Ray => {
-                "one pixel's ray: every crossing at its t, the boxes it opened, what was tested, what won"
+                "one pixel's ray: every primitive that it hits at its t, the boxes that it hits, what is tested and seen"
             }
             Kind::Work => {
                 "heat maps of the work at each pixel: both orders, textbook and fast, on one scale"

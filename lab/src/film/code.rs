@@ -78,8 +78,8 @@ pub(super) fn code(order: Order, method: Method) -> [&'static str; 5] {
 fn variables(film: &Film, order: Order, shot: &OrderShot) -> [String; 5] {
     let Position { line, primitive, sample, node, kept } = shot.position;
     let object = primitive.map_or(String::new(), |id| object(&film.view, id));
-    let object = node.map_or(object, |(node, enters)| {
-        format!("box {}: {}", grouped(node.into()), if enters { "entered" } else { "missed" })
+    let object = node.map_or(object, |(node, is_hit)| {
+        format!("box {}: {}", grouped(node.into()), if is_hit { "hit" } else { "missed" })
     });
     let pixel = sample.map_or(String::new(), |at| format!("pixel ({}, {})", at.row, at.column));
     let [outer, inner] = match order {

@@ -82,14 +82,14 @@ fn formulas(sheet: &mut Sheet, subject: &Subject, ray: &ViewingRay) {
     let origin = eye(camera.eye());
     match camera.projection() {
         Projection::Perspective => lines.extend([
-            (format!("origin = eye = {origin}"), formula),
-            (format!("direction = x u + y v − d w = {direction}"), formula),
+            (format!("origin p = eye = {origin}"), formula),
+            (format!("direction x u + y v − d w = {direction}"), formula),
         ]),
         Projection::Parallel => {
             let moved = vector(camera.eye().as_dvec3() + ray.ray().origin);
             lines.extend([
-                (format!("origin = eye + x u + y v = {moved}"), formula),
-                (format!("direction = −w = {direction}"), formula),
+                (format!("origin p = eye + x u + y v = {moved}"), formula),
+                (format!("direction −w = {direction}"), formula),
             ]);
         }
     }
@@ -98,7 +98,7 @@ fn formulas(sheet: &mut Sheet, subject: &Subject, ray: &ViewingRay) {
         Some(nearest) => {
             let kind = nearest.kind;
             (
-                format!("nearest hit: t = {}, {kind}, id {}", number(nearest.t, 5), nearest.id),
+                format!("nearest hit: {kind}, id {}, at t = {}", nearest.id, number(nearest.t, 5)),
                 formula,
             )
         }

@@ -27,7 +27,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         &mut frame,
         &mut counts,
     );
-    let point = "Depth complexity: how many surfaces lie behind one another at a sample. Only the nearest is seen.";
+    let point = "Depth complexity: how many primitives lie behind one another at a sample, a sphere once. Only the nearest is seen.";
     let mut sheet = Sheet::new(subject, "How many primitives cover each sample?", point);
     let (image, counts): ([usize; 2], Vec<u64>) = (counts.size(), counts.all().collect());
     let most = counts.iter().copied().max().unwrap_or(0).max(1);

@@ -57,9 +57,15 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     sheet.heading([left, MAPS_TOP], MAP[0], "difference", "object order minus image order");
     difference_bar(&mut sheet, [left, MAPS_TOP + size[1] + 14.0], size[0]);
     let style = theme.label();
-    let says = format!(
-        "level 0 is the picture itself, each next one half as wide and high, level {most} the last: a single texel"
-    );
+    let each = "each next level is half as wide and high";
+    let says = match levels.assumed {
+        Some(side) => format!(
+            "no texture is seen here: these are the levels of one of {side} × {side} texels, level 0; {each}"
+        ),
+        None => {
+            format!("level 0 is the picture itself, {each}, level {most} the last: a single texel")
+        }
+    };
     let baseline = MAPS_TOP + size[1] + 86.0;
     sheet.drawing.fitting([MARGIN, baseline], Anchor::Left, &says, style, 2.0 * MAP[0]);
     let says = "orange: object order reads a smaller picture";
@@ -103,6 +109,8 @@ struct Levels<'a> {
     height: usize,
     /// The last level of the largest texture, which has a single texel.
     most: u64,
+    /// The side of the texture that is assumed where nothing has one, in texels.
+    assumed: Option<usize>,
 }
 
 impl<'a> Levels<'a> {
@@ -113,12 +121,13 @@ impl<'a> Levels<'a> {
             of_mesh.filter_map(|named| named.material.as_ref()).chain([&object.material])
         });
         let textures = materials.filter_map(|material| material.texture.as_ref());
-        let of_usual = LEVELS_OF[0].ilog2() as usize;
-        let most = textures.map(|texture| texture.pyramid.levels().len() - 1).max();
-        let most = most.unwrap_or(of_usual).max(1) as u64;
+        let [side, _] = LEVELS_OF;
+        let of_textures = textures.map(|texture| texture.pyramid.levels().len() - 1).max();
+        let most = of_textures.unwrap_or(side.ilog2() as usize).max(1) as u64;
+        let assumed = of_textures.is_none().then_some(side);
         let of = frames.each_ref().map(|frame| frame.levels());
         let (width, height) = (frames[0].width(), frames[0].height());
-        Levels { of, ids: frames[0].ids(), width, height, most }
+        Levels { of, ids: frames[0].ids(), width, height, most, assumed }
     }
 
     /// The level that an order reads, from 0 to the last one.

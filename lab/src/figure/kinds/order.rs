@@ -103,7 +103,7 @@ fn legend(sheet: &mut Sheet) {
 fn curves(sheet: &mut Sheet, clocks: &[Clock; 2], image: [u32; 2], corner: [f64; 2]) {
     let theme = sheet.theme;
     let size = [RIGHT - corner[0], MAP[1]];
-    sheet.heading(corner, size[0], "pixels decided", "by the steps done");
+    sheet.heading(corner, size[0], "pixels decided", "up to all, by the part of its own steps");
     sheet.mat(corner, size);
     for clock in clocks {
         let color = theme.of(clock.order.into());

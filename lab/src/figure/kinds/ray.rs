@@ -1,4 +1,4 @@
-//! One pixel's ray: every crossing at its `t`, the boxes that it opened, what was tested, and what won.
+//! One pixel's ray: every hit at its `t`, the boxes that it hits, what was tested, and what won.
 
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::observe::{Events, Observer};
@@ -17,7 +17,7 @@ const PICTURE: ([f64; 2], [f64; 2]) = ([MARGIN, TOP + 44.0], [540.0, 372.0]);
 /// The words beside the picture.
 const WORDS: [f64; 2] = [MARGIN + 590.0, TOP + 44.0];
 const WORDS_WIDTH: f64 = 640.0;
-/// The table of crossings.
+/// The table of hits.
 const TABLE: [f64; 2] = [MARGIN + 1290.0, TOP + 44.0];
 /// The most rows of the table.
 const MOST_ROWS: usize = 8;
@@ -37,24 +37,24 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let path = Path::of(view, &prepared, pixel);
     let boxes: HashMap<u32, HierarchyBox> =
         prepared.boxes().into_iter().map(|one| (one.number, one)).collect();
-    let point = "The ray asks boxes first, then the primitives in those it enters; the crossing with the least t > 0 is seen.";
+    let point = "The ray tests boxes first, then the primitives in those that it hits; the hit with the least t > 0 is seen.";
     let mut sheet = Sheet::new(subject, &format!("The viewing ray of pixel ({i}, {j})"), point);
     picture(&mut sheet, subject, pixel);
     words(&mut sheet, subject, &report, &path);
-    let entered: Vec<(HierarchyBox, [f64; 2])> = path
+    let boxes_hit: Vec<(HierarchyBox, [f64; 2])> = path
         .opened
         .iter()
-        .filter(|(_, entered)| *entered)
+        .filter(|(_, hit)| *hit)
         .filter_map(|(number, _)| {
             let one = boxes.get(number)?;
             Some((*one, interval(view, &report.ray, one)?))
         })
         .collect();
-    axis(&mut sheet, &report, &entered);
+    axis(&mut sheet, &report, &boxes_hit);
     Ok(sheet.drawing)
 }
 
-/// The pixel with the most crossings; of several, the one nearest to the middle.
+/// The pixel whose ray hits most; of several, the one nearest to the middle.
 fn telling(view: &View) -> Result<[u32; 2], FigureError> {
     use super::counts::{Counted, Counts};
     let mut counts = Counts::new(view.camera.image(), Counted::Fragments);
@@ -63,11 +63,11 @@ fn telling(view: &View) -> Result<[u32; 2], FigureError> {
     let middle = [f64::from(height) / 2.0, f64::from(width) / 2.0];
     let far = |[i, j]: [u32; 2]| (f64::from(i) - middle[0]).hypot(f64::from(j) - middle[1]);
     let pixels = (0..height).flat_map(|i| (0..width).map(move |j| [i, j]));
-    // More than a handful of crossings is more than a slide shows well.
-    let crossings = |[i, j]: [u32; 2]| counts.at(i as usize, j as usize).min(5);
+    // More than a handful of hits is more than a slide shows well.
+    let of_pixel = |[i, j]: [u32; 2]| counts.at(i as usize, j as usize).min(5);
     pixels
-        .filter(|pixel| crossings(*pixel) > 0)
-        .min_by(|a, b| crossings(*b).cmp(&crossings(*a)).then(far(*a).total_cmp(&far(*b))))
+        .filter(|pixel| of_pixel(*pixel) > 0)
+        .min_by(|a, b| of_pixel(*b).cmp(&of_pixel(*a)).then(far(*a).total_cmp(&far(*b))))
         .ok_or_else(|| {
             FigureError::new(
                 "no ray hits anything; choose a pixel with --pixel ROW,COLUMN to see a miss",
@@ -109,9 +109,9 @@ impl Observer for Path {
 }
 
 impl Events for Path {
-    fn node_opened(&mut self, sample: Sample, node: u32, entered: bool) {
+    fn node_opened(&mut self, sample: Sample, node: u32, hit: bool) {
         if self.sample == Some(sample) {
-            self.opened.push((node, entered));
+            self.opened.push((node, hit));
         }
     }
 
@@ -170,21 +170,21 @@ fn words(sheet: &mut Sheet, subject: &Subject, report: &SampleReport, path: &Pat
         format!("({}, {}, {})", number(vector.x, 4), number(vector.y, 4), number(vector.z, 4))
     };
     let eye = subject.view.camera.eye().as_dvec3();
-    let entered = path.opened.iter().filter(|(_, entered)| *entered).count() as u64;
+    let hit = path.opened.iter().filter(|(_, hit)| *hit).count() as u64;
     let all = subject.view.scene.primitive_count();
     let seen = match report.covering.first() {
-        None => "It crosses nothing: the background is seen.".to_owned(),
+        None => "It hits nothing: the background is seen.".to_owned(),
         Some(nearest) => {
-            format!("Seen: {} {}, at t = {}.", nearest.kind, nearest.id, number(nearest.t, 6))
+            format!("Seen: {}, id {}, at t = {}.", nearest.kind, nearest.id, number(nearest.t, 6))
         }
     };
-    sheet.heading([x, top], width, "what it met", "");
-    let origin = format!("p = {}", vector(eye + report.ray.origin));
-    let direction = format!("d = {}", vector(report.ray.direction));
+    sheet.heading([x, top], width, "the ray, and what it tests", "");
+    let origin = format!("origin p = {}", vector(eye + report.ray.origin));
+    let direction = format!("direction d = {}", vector(report.ray.direction));
     let boxes = format!(
-        "{} tested, {} entered",
+        "{} tested, {} of them hit",
         count(path.opened.len() as u64, "boxes"),
-        grouped(entered)
+        grouped(hit)
     );
     let tested = format!(
         "{} tested; the textbook tests all {}",
@@ -206,13 +206,13 @@ fn words(sheet: &mut Sheet, subject: &Subject, report: &SampleReport, path: &Pat
     table(sheet, report);
 }
 
-/// The crossings, near to far.
+/// What the ray hits, near to far: of a sphere, its first hit.
 fn table(sheet: &mut Sheet, report: &SampleReport) {
     let theme = sheet.theme;
     let [x, top] = TABLE;
     let width = RIGHT - x;
     let all = report.covering.len();
-    sheet.heading([x, top], width, "crossings", &grouped(all as u64));
+    sheet.heading([x, top], width, "primitives hit", &grouped(all as u64));
     let shown = if all > MOST_ROWS { MOST_ROWS - 1 } else { all };
     for (row, covering) in report.covering.iter().take(shown).enumerate() {
         let baseline = top + 34.0 + 44.0 * row as f64;
@@ -220,7 +220,7 @@ fn table(sheet: &mut Sheet, report: &SampleReport) {
             if row == 0 { theme.text().semi_bold().of(theme.of(Role::Good)) } else { theme.text() };
         let t = format!("t = {}", number(covering.t, 6));
         let taken = sheet.drawing.text([x + width, baseline], Anchor::Right, &t, style.tabular());
-        let name = format!("{}  {}", covering.id, covering.kind);
+        let name = format!("{}, id {}", covering.kind, covering.id);
         sheet.drawing.fitting([x, baseline], Anchor::Left, &name, style, width - taken - 20.0);
     }
     if all > shown {
@@ -233,14 +233,15 @@ fn table(sheet: &mut Sheet, report: &SampleReport) {
     }
 }
 
-/// The axis of `t`, with boxes above it and crossings on it.
-fn axis(sheet: &mut Sheet, report: &SampleReport, entered: &[(HierarchyBox, [f64; 2])]) {
+/// The axis of `t`, with boxes above it and hits on it.
+fn axis(sheet: &mut Sheet, report: &SampleReport, boxes_hit: &[(HierarchyBox, [f64; 2])]) {
     let theme = sheet.theme;
-    let crossings: Vec<f64> = report.covering.iter().map(|covering| covering.t).collect();
-    let nearest = crossings.first().copied();
-    let boxes = entered.iter().flat_map(|(_, ends)| ends.iter().copied()).filter(|t| t.is_finite());
-    let farthest = crossings.iter().copied().chain(boxes).fold(0.0, f64::max);
-    // A far crossing, such as a floor near its horizon, must not squeeze the others.
+    let hits: Vec<f64> = report.covering.iter().map(|covering| covering.t).collect();
+    let nearest = hits.first().copied();
+    let boxes =
+        boxes_hit.iter().flat_map(|(_, ends)| ends.iter().copied()).filter(|t| t.is_finite());
+    let farthest = hits.iter().copied().chain(boxes).fold(0.0, f64::max);
+    // A far hit, such as a floor near its horizon, must not squeeze the others.
     let most = match nearest {
         Some(near) if farthest > 12.0 * near => 12.0 * near,
         _ if farthest > 0.0 => farthest,
@@ -254,7 +255,7 @@ fn axis(sheet: &mut Sheet, report: &SampleReport, entered: &[(HierarchyBox, [f64
         let at = [AXIS[1] + 8.0, AXIS_Y - 20.0];
         sheet.drawing.text(at, Anchor::Right, &farther, theme.label());
     }
-    levels(sheet, entered, &place);
+    levels(sheet, boxes_hit, &place);
     let line = Pen::new(theme.bright(), 3.0);
     sheet.drawing.arrow([AXIS[0] - 24.0, AXIS_Y], [AXIS[1] + 36.0, AXIS_Y], line);
     sheet.drawing.text(
@@ -265,7 +266,7 @@ fn axis(sheet: &mut Sheet, report: &SampleReport, entered: &[(HierarchyBox, [f64
     );
     sheet.drawing.disc([AXIS[0], AXIS_Y], 8.0, theme.ink(Role::Camera));
     sheet.drawing.text([AXIS[0], AXIS_Y + 40.0], Anchor::Middle, "0", theme.label());
-    sheet.drawing.text([MARGIN, AXIS_Y + 8.0], Anchor::Left, "crossings", theme.text());
+    sheet.drawing.text([MARGIN, AXIS_Y + 8.0], Anchor::Left, "hits", theme.text());
     let behind = Pen::new(theme.quiet(), 3.0);
     for (place_in_order, covering) in shown.iter().enumerate().rev() {
         let x = place(covering.t);
@@ -284,10 +285,12 @@ fn axis(sheet: &mut Sheet, report: &SampleReport, entered: &[(HierarchyBox, [f64
     labels(sheet, &shown, &place);
 }
 
-/// The names of the crossings below the axis: those that fit, nearest first, in two rows.
+/// The names of the hits below the axis: those that fit, nearest first, in two rows.
 fn labels(sheet: &mut Sheet, shown: &[&Covering], place: &impl Fn(f64) -> f64) {
     let theme = sheet.theme;
     let mut free = [AXIS[0] + 30.0, AXIS[0] + 30.0];
+    // Where the upper row has words, through which no line may go.
+    let mut written: Vec<[f64; 2]> = Vec::new();
     for (number_in_order, covering) in shown.iter().enumerate() {
         let x = place(covering.t);
         let style = theme.label();
@@ -296,9 +299,12 @@ fn labels(sheet: &mut Sheet, shown: &[&Covering], place: &impl Fn(f64) -> f64) {
         let text = format!("id {}: t = {}", covering.id, number(covering.t, 5));
         let half = 0.5 * f64::from(crate::figure::text::width(&text, style));
         let middle = x.clamp(AXIS[0] + half, RIGHT - half);
-        let Some(row) = (0..2).find(|row| middle - half >= free[*row]) else {
-            continue;
-        };
+        let is_crossed = || written.iter().any(|[from, to]| (from - 6.0..to + 6.0).contains(&x));
+        let fits = |row: &usize| middle - half >= free[*row] && (*row == 0 || !is_crossed());
+        let Some(row) = (0..2).find(fits) else { continue };
+        if row == 0 {
+            written.push([middle - half, middle + half]);
+        }
         free[row] = middle + half + 22.0;
         let baseline = AXIS_Y + 46.0 + 34.0 * row as f64;
         sheet
@@ -308,22 +314,22 @@ fn labels(sheet: &mut Sheet, shown: &[&Covering], place: &impl Fn(f64) -> f64) {
     }
 }
 
-/// The boxes that the ray entered, a row a level.
-fn levels(sheet: &mut Sheet, entered: &[(HierarchyBox, [f64; 2])], place: &impl Fn(f64) -> f64) {
+/// The boxes that the ray hits, a row a level.
+fn levels(sheet: &mut Sheet, boxes_hit: &[(HierarchyBox, [f64; 2])], place: &impl Fn(f64) -> f64) {
     let theme = sheet.theme;
-    if entered.is_empty() {
-        let none = "It enters no box: planes have none, and nothing else is near.";
+    if boxes_hit.is_empty() {
+        let none = "It hits no box: planes have none, and nothing else is near.";
         sheet.drawing.text([MARGIN, AXIS_TOP + 30.0], Anchor::Left, none, theme.label());
         return;
     }
-    let deepest = entered.iter().map(|(one, _)| one.level).max().unwrap_or(0);
+    let deepest = boxes_hit.iter().map(|(one, _)| one.level).max().unwrap_or(0);
     let rows = (deepest + 1).min(ROWS);
     let step = ((AXIS_Y - 50.0 - AXIS_TOP) / rows as f64).min(44.0);
     let top = AXIS_Y - 46.0 - step * rows as f64;
     sheet.heading(
         [MARGIN, top - 6.0],
         RIGHT - MARGIN,
-        "boxes that it entered",
+        "boxes that it hits",
         "from where to where the ray is in each",
     );
     for row in 0..rows {
@@ -331,7 +337,7 @@ fn levels(sheet: &mut Sheet, entered: &[(HierarchyBox, [f64; 2])], place: &impl 
         // The last row stands for all deeper levels.
         let here = |level: usize| level == row || (row + 1 == rows && level > row);
         let of_row: Vec<&(HierarchyBox, [f64; 2])> =
-            entered.iter().filter(|(one, _)| here(one.level)).collect();
+            boxes_hit.iter().filter(|(one, _)| here(one.level)).collect();
         let deeper = if row + 1 == rows && deepest >= rows { " and deeper" } else { "" };
         let name = format!("level {}{deeper}: {}", row + 1, grouped(of_row.len() as u64));
         sheet.drawing.text(

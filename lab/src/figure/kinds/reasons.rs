@@ -1,12 +1,15 @@
 //! Why both orders differ, pixel by pixel, when one of them has the rules of an ordinary renderer.
 
 use super::both::{Both, both};
-use crate::diff::foreign::Buffer;
-use crate::diff::why::{ReasonKind, Reasons, find_reasons};
+use crate::diff::foreign::{Buffer, Side};
+use crate::diff::why::{
+    Explanation, Finding, Findings, ReasonKind, Reasons, find_conventions, find_reasons,
+};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject};
 use crate::figure::theme::faded;
+use crate::orders::Rendered;
 use crate::wording::{count, grouped};
 use image::Rgb;
 
@@ -17,26 +20,67 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let both = both(subject)?;
     let differing: Vec<[u32; 2]> =
         both.comparison.classes().differing().map(|(pixel, _)| pixel).collect();
-    let [a, b] = [&both.object_order, &both.image_order].map(crate::orders::Rendered::name);
-    let title = format!("Why do {a} and {b} differ?");
-    let point = if differing.is_empty() {
-        "They agree in every pixel: there is nothing to explain. Give one of them other rules with --object-rules.".into()
-    } else {
-        format!(
-            "{} of the picture differ; the exact judge says why.",
-            count(differing.len() as u64, "pixels")
-        )
-    };
-    let mut sheet = Sheet::new(subject, &title, &point);
+    let names = [&both.object_order, &both.image_order].map(name);
+    let title = format!("Why do {} and {} differ?", names[0], names[1]);
     let buffers = [
         Buffer::of_frame(&both.object_order.frame, &both.pictures[0]),
         Buffer::of_frame(&both.image_order.frame, &both.pictures[1]),
     ];
-    let reasons = find_reasons(&subject.view, &buffers[0], &buffers[1], &differing)
+    let mut reasons = find_reasons(&subject.view, &buffers[0], &buffers[1], &differing)
         .map_err(|error| FigureError::new(error.to_string()))?;
+    let conventions = conventions(subject, &both, &buffers, &mut reasons);
+    let mut sheet = Sheet::new(subject, &title, &point(&reasons));
     map(&mut sheet, &both, &reasons);
-    table(&mut sheet, &both, &reasons);
+    table(&mut sheet, &names, &conventions, &reasons);
     Ok(sheet.drawing)
+}
+
+/// The name of an order, with its rule: "object order (corner)".
+fn name(rendered: &Rendered) -> String {
+    let name = rendered.name();
+    match name.split_once(", ") {
+        Some((order, rule)) => format!("{order} ({rule})"),
+        None => name,
+    }
+}
+
+/// What there is to see, in a sentence.
+fn point(reasons: &Reasons) -> String {
+    if reasons.differing == 0 {
+        return "They agree in every pixel: there is nothing to explain. Give one of them other rules with --object-rules."
+            .into();
+    }
+    let unexplained = reasons.count_of(|kind| kind == ReasonKind::Unexplained);
+    let differ = format!("{} of the picture differ", count(reasons.differing, "pixels"));
+    match unexplained {
+        0 => format!("{differ}; each of them has a reason."),
+        some => format!("{differ}; for {} of them no reason is known.", grouped(some)),
+    }
+}
+
+/// What an order with other rules does otherwise as a whole, in sentences; the pixels that it explains get it for their reason.
+fn conventions(
+    subject: &Subject,
+    both: &Both,
+    buffers: &[Buffer; 2],
+    reasons: &mut Reasons,
+) -> Vec<String> {
+    let mut sentences = Vec::new();
+    let orders = [&both.object_order, &both.image_order];
+    for ((rendered, buffer), side) in orders.into_iter().zip(buffers).zip([Side::A, Side::B]) {
+        let found = rendered.rule.and_then(|_| find_conventions(&subject.view, buffer).ok());
+        if let Some(Findings { finding: Finding::Explained(found), differing, .. }) = found
+            && !found[0].is_a_guess(differing)
+        {
+            reasons.explained_by(side, &found[0]);
+            // Of several explanations, what all of them say is certain.
+            let said = |one: &Explanation| one.sentences(&name(rendered), subject.view.camera);
+            let others: Vec<Vec<String>> = found[1..].iter().map(said).collect();
+            let certain = |sentence: &String| others.iter().all(|other| other.contains(sentence));
+            sentences.extend(said(&found[0]).into_iter().filter(certain));
+        }
+    }
+    sentences
 }
 
 /// The picture, pale, with the differing pixels in the colours of their reasons.
@@ -67,7 +111,7 @@ fn map(sheet: &mut Sheet, both: &Both, reasons: &Reasons) {
     }
 }
 
-fn table(sheet: &mut Sheet, both: &Both, reasons: &Reasons) {
+fn table(sheet: &mut Sheet, names: &[String; 2], conventions: &[String], reasons: &Reasons) {
     let theme = sheet.theme;
     let (mut y, width) = (ROOM.0[1], RIGHT - WORDS);
     sheet.heading([WORDS, y], width, "reasons", "pixels");
@@ -97,15 +141,18 @@ fn table(sheet: &mut Sheet, both: &Both, reasons: &Reasons) {
         y = sheet.paragraph([WORDS, y], width, 30.0, &looked, theme.label());
     }
     y += 14.0;
-    let names = [&both.object_order, &both.image_order].map(crate::orders::Rendered::name);
+    for sentence in conventions {
+        y = sheet.paragraph([WORDS, y], width, 34.0, sentence, theme.text());
+        y += 12.0;
+    }
     // The first pixel of each kind, in words, as far as there is room.
-    for (kind, _) in &counts {
+    for (kind, _) in counts.iter().filter(|(kind, _)| *kind != ReasonKind::Convention) {
         let Some(found) = reasons.pixels.iter().find(|one| one.reason.kind() == *kind) else {
             continue;
         };
         let [i, j] = found.pixel;
         let sentence = found.reason.sentence();
-        let text = format!("({i}, {j}): {}", in_names(&sentence, &names));
+        let text = format!("({i}, {j}): {}", in_names(&sentence, names));
         let lines = text.len() as f64 / 40.0 + 1.0;
         if y + 34.0 * lines > 960.0 {
             break;

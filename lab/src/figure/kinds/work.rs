@@ -88,8 +88,8 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
 
 /// Draws maps of work that are counted already: the figure of [`Kind::Work`](crate::figure::Kind::Work).
 pub fn work_figure(subject: &Subject, maps: &[WorkMap]) -> Drawing {
-    let point = "The work of the algorithm, each primitive and each ray by itself; a timed frame shares much of it.";
-    let mut sheet = Sheet::new(subject, "How much work is a pixel?", point);
+    let point = "Counted as if each primitive and each ray were alone; a timed frame takes many together, and does less.";
+    let mut sheet = Sheet::new(subject, "How many tests does each pixel take?", point);
     let most = maps.iter().flat_map(|map| map.counts.iter().copied()).max().unwrap_or(1).max(1);
     for (place, map) in maps.iter().enumerate() {
         let corner = [LEFTS[place % 2], TOPS[place / 2]];
@@ -149,8 +149,8 @@ fn words(sheet: &mut Sheet, map: &WorkMap, [x, y]: [f64; 2]) {
     let most = map.counts.iter().copied().max().unwrap_or(0);
     let mean = total as f64 / map.counts.len() as f64;
     let (what, unit) = match (map.order, map.method) {
-        (Order::Image, Method::Fast) => ("primitives and boxes tested", "tests"),
-        _ => ("primitives tested", "tests"),
+        (Order::Image, Method::Fast) => ("tests of a primitive, or a box, at a pixel", "tests"),
+        _ => ("tests of a primitive at a pixel", "tests"),
     };
     let bold = theme.heading().sized(34.0);
     let mut y = sheet.lines([x, y], width, 40.0, &[(&grouped(total), bold)]);

@@ -38,10 +38,10 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
             }
             let picture = &both.pictures[row];
             cells(&mut sheet, &patch, &rendered.frame, picture, column, range);
-            mark(&mut sheet, &patch, &both);
+            mark(&mut sheet, &patch, &both, pixel);
         }
     }
-    legend(&mut sheet, range, pixel, image);
+    legend(&mut sheet, range, &both, &patch);
     Ok(sheet.drawing)
 }
 
@@ -115,11 +115,13 @@ fn cells(
     patch.draw_lines(&mut sheet.drawing, Pen::new(theme.background(), 1.0));
 }
 
-/// Frames the pixels in which the orders differ.
-fn mark(sheet: &mut Sheet, patch: &Patch, both: &Both) {
-    let color = sheet.theme.of(Role::Focus);
+/// Frames the pixels in which the orders differ, and the one that is looked at.
+fn mark(sheet: &mut Sheet, patch: &Patch, both: &Both, looked_at: [u32; 2]) {
+    let looked_at = looked_at.map(|part| part as usize);
     for [row, column] in patch.pixels() {
-        if differs(both, [row, column]) {
+        let differs = differs(both, [row, column]);
+        if differs || [row, column] == looked_at {
+            let color = if differs { sheet.theme.of(Role::Focus) } else { sheet.theme.bright() };
             let corner = patch.corner([row, column]).map(|part| part + 1.0);
             sheet.drawing.frame(
                 corner,
@@ -131,14 +133,21 @@ fn mark(sheet: &mut Sheet, patch: &Patch, both: &Both) {
     }
 }
 
-fn legend(sheet: &mut Sheet, [low, high]: [f64; 2], pixel: [u32; 2], image: [u32; 2]) {
+fn legend(sheet: &mut Sheet, [low, high]: [f64; 2], both: &Both, patch: &Patch) {
     let theme = sheet.theme;
     let y = 986.0;
-    let patch = Patch::around(pixel, image, SIZE, ([0.0; 2], ROOM));
-    let rows = format!("{};  hatched: nothing is seen", patch.name());
+    let frames = [&both.object_order.frame, &both.image_order.frame];
+    let sees_nothing =
+        |[row, column]: [usize; 2]| frames.iter().any(|frame| frame.id(row, column).is_none());
+    let hatched = if patch.pixels().any(sees_nothing) { ";  hatched: nothing is seen" } else { "" };
+    let rows = format!("{}{hatched}", patch.name());
     sheet.drawing.text([MARGIN, y], Anchor::Left, &rows, theme.label());
-    if low <= high {
-        let range = format!("t from {} (dark) to {} (light)", number(low, 5), number(high, 5));
-        sheet.drawing.text([MARGIN + 2.0 * STEP, y], Anchor::Left, &range, theme.label());
-    }
+    let range = if low < high {
+        format!("t from {} (dark) to {} (light)", number(low, 5), number(high, 5))
+    } else if low == high {
+        format!("t = {} wherever something is seen", number(low, 5))
+    } else {
+        return;
+    };
+    sheet.drawing.text([MARGIN + 2.0 * STEP, y], Anchor::Left, &range, theme.label());
 }

@@ -301,11 +301,13 @@ fn outside_labels(
         theme,
         theme.of(Role::Camera),
     );
-    if stage.enlarged > 1.0 {
-        let note = format!(
-            "drawn {} times as far and as large: its rays are the same",
-            number(stage.enlarged, 3)
-        );
+    if stage.enlarged != 1.0 {
+        let how = if stage.enlarged > 1.0 {
+            format!("{} times as far and as large", number(stage.enlarged, 3))
+        } else {
+            format!("at 1/{} of the distance and size", number(1.0 / stage.enlarged, 3))
+        };
+        let note = format!("drawn {how}: its rays are the same");
         label_at(drawing, bottom, [0.0, 1.0], &note, theme, theme.of(Role::Camera));
     }
     if stage.nearer {

@@ -89,6 +89,7 @@ fn distance(
     let text = match stage.enlarged {
         _ if stage.nearer => format!("nearer than d = {d}"),
         enlarged if enlarged > 1.0 => format!("{} d (d = {d})", number(enlarged, 3)),
+        enlarged if enlarged < 1.0 => format!("d/{} (d = {d})", number(1.0 / enlarged, 3)),
         _ => format!("d = {d}"),
     };
     label_at(

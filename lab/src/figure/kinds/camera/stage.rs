@@ -10,7 +10,7 @@ use crate::figure::subject::{Subject, seen};
 pub(super) struct Stage {
     /// The corners of the viewport as it is drawn: top left, top right, bottom right, bottom left.
     pub(super) viewport: [DVec3; 4],
-    /// How many times as far, and as large, as the camera's own viewport it is drawn.
+    /// How many times as far, and as large, as the camera's own viewport it is drawn; below 1 where it is nearer and smaller.
     pub(super) enlarged: f64,
     /// Whether the viewport of a parallel camera is drawn nearer than it is.
     pub(super) nearer: bool,
@@ -36,7 +36,7 @@ impl Stage {
         let own = camera.distance();
         let deepest = if most > 0.0 { most } else { 3.0 * own };
         let nearest = depths.first().copied().unwrap_or(deepest);
-        let enlarged = enlargement(camera, nearest, deepest);
+        let enlarged = enlargement(camera, [nearest, middle], deepest);
         let [vw, vh] = camera.viewport();
         let corners = [[-0.5, 0.5], [0.5, 0.5], [0.5, -0.5], [-0.5, -0.5]];
         let rays = corners.map(|[x, y]| camera.ray_through(x * vw, y * vh));
@@ -76,16 +76,26 @@ impl Stage {
 }
 
 /// A viewport that is too small to see beside the scene is drawn so many times as far and as large: its rays are the
-/// same. One, two, five or ten times, and so on, as long as it stays before what is seen.
-fn enlargement(camera: &Camera, nearest: f64, deepest: f64) -> f64 {
+/// same. One, two, five or ten times, and so on, as long as it stays before what is seen. Where most of what is seen lies before
+/// the viewport, it is drawn at a half, a fifth or a tenth: the picture frame stands between the eye and the scene.
+fn enlargement(camera: &Camera, [nearest, middle]: [f64; 2], deepest: f64) -> f64 {
+    let own = camera.distance();
     if camera.projection() == Projection::Parallel {
         return 1.0;
     }
+    let mut steps =
+        (0..24).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
+    let most = 0.8 * nearest / own;
+    if middle > 0.0 && middle < own {
+        return steps.map(|step| 1.0 / step).find(|part| *part <= most).unwrap_or(1.0);
+    }
     let [width, height] = camera.viewport();
-    let wanted = 0.3 * deepest / width.max(height).max(0.5 * camera.distance());
-    let most = 0.8 * nearest / camera.distance();
-    let steps = (0..24).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
-    steps.take_while(|step| *step <= wanted && *step <= most).last().unwrap_or(1.0)
+    let wanted = 0.3 * deepest / width.max(height).max(0.5 * own);
+    let mut enlarged = 1.0;
+    while let Some(step) = steps.next().filter(|step| *step <= wanted && *step <= most) {
+        enlarged = step;
+    }
+    enlarged
 }
 
 /// Points that a coarse grid of rays hits: of planes only if there is nothing else, because a plane has no end.
