@@ -87,6 +87,7 @@ pub mod mesh_stream;
 pub mod obj;
 pub mod picture;
 pub mod ply;
+mod polygon;
 pub mod scene_file;
 pub mod shapes;
 pub mod smooth;

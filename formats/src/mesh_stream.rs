@@ -137,8 +137,8 @@ impl MeshStream {
             }
         };
         match &mut self.faces {
-            Faces::Obj(file) => file.triangles(visit).map_err(ReadMeshError::from)?,
-            Faces::Ply(file) => file.triangles(visit).map_err(ReadMeshError::from)?,
+            Faces::Obj(file) => file.triangles(positions, visit).map_err(ReadMeshError::from)?,
+            Faces::Ply(file) => file.triangles(positions, visit).map_err(ReadMeshError::from)?,
             Faces::Stl(file) => file.triangles(visit).map_err(ReadMeshError::from)?,
         }
         match u32::try_from(count) {

@@ -2,6 +2,7 @@
 
 use super::visitor::{Corner, Visitor};
 use crate::attributes::{self, NONE, linear_colors, push_color};
+use crate::polygon::{Fans, fan};
 use bothways_common::scene::{Attribute, Mesh, MeshMaterials};
 use glam::{Vec2, Vec3};
 
@@ -26,7 +27,9 @@ pub(super) struct Piece {
 #[derive(Default)]
 struct Geometry {
     positions: Vec<Vec3>,
+    /// Those of fans: a face may name positions further down, so only the last line tells which must not be.
     triangles: Vec<[u32; 3]>,
+    fans: Fans,
     texture_coordinates: Attribute<Vec2>,
     normals: Attribute<Vec3>,
     /// As they are written, up to the last vertex that has one.
@@ -50,9 +53,9 @@ impl Visitor for MeshBuilder {
         self.geometry.normals.values.push(normal);
     }
 
-    fn triangle(&mut self, corners: [Corner; 3]) {
+    fn polygon(&mut self, corners: &[Corner]) {
         self.use_material(self.geometry.triangles.len());
-        self.geometry.triangle(corners);
+        self.geometry.polygon(corners);
     }
 
     fn material(&mut self, name: Option<String>) {
@@ -81,8 +84,8 @@ impl Visitor for Piece {
         self.geometry.normals.values.push(normal);
     }
 
-    fn triangle(&mut self, corners: [Corner; 3]) {
-        self.geometry.triangle(corners);
+    fn polygon(&mut self, corners: &[Corner]) {
+        self.geometry.polygon(corners);
     }
 
     fn material(&mut self, name: Option<String>) {
@@ -133,7 +136,18 @@ impl MeshBuilder {
 
     /// The mesh, after the whole file has been parsed and all indices have been checked.
     pub(super) fn finish(self) -> Mesh {
-        let Geometry { positions, triangles, texture_coordinates, normals, colors } = self.geometry;
+        let Geometry {
+            positions,
+            mut triangles,
+            fans,
+            mut texture_coordinates,
+            mut normals,
+            colors,
+        } = self.geometry;
+        let recuts = fans.recuts(&positions, &triangles);
+        for corners in [&mut triangles, &mut texture_coordinates.corners, &mut normals.corners] {
+            recuts.apply(corners);
+        }
         let colors = linear_colors(colors);
         attributes::mesh(positions, triangles, normals, texture_coordinates, colors, self.materials)
     }
@@ -142,6 +156,11 @@ impl MeshBuilder {
 impl Geometry {
     fn color(&mut self, color: Vec3) {
         push_color(&mut self.colors, self.positions.len() - 1, color);
+    }
+
+    fn polygon(&mut self, corners: &[Corner]) {
+        self.fans.add(self.triangles.len(), corners.len());
+        fan(corners).for_each(|triangle| self.triangle(triangle));
     }
 
     fn triangle(&mut self, corners: [Corner; 3]) {
@@ -158,6 +177,7 @@ impl Geometry {
             self.colors.resize(self.positions.len(), Vec3::ONE);
             self.colors.extend_from_slice(&piece.colors);
         }
+        self.fans.append(&piece.fans, triangles);
         self.positions.extend_from_slice(&piece.positions);
         self.triangles.extend_from_slice(&piece.triangles);
         append(&mut self.texture_coordinates, &piece.texture_coordinates, triangles);

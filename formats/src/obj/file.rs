@@ -6,8 +6,10 @@ use super::parser::Parser;
 use super::statements::{BufferedStatements, MOST_BYTES_A_STATEMENT, check_length};
 use super::visitor::{Corner, Visitor};
 use super::words::Words;
+use crate::polygon::Cutter;
 use crate::source::{BYTE_ORDER_MARK, READ_AT_ONCE, regular_file};
 use crate::warning::MaterialWarning;
+use bothways_common::scene::Positions;
 use glam::Vec3;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
@@ -23,26 +25,26 @@ pub(crate) struct ObjFile {
     names_materials: bool,
 }
 
-/// Passes positions and triangles on, and ignores everything else.
-struct GeometryOnly<V, T> {
+/// Passes positions and polygons on, and ignores everything else.
+struct GeometryOnly<V, P> {
     vertex: V,
-    triangle: T,
+    polygon: P,
     names_materials: bool,
 }
 
-impl<V, T> GeometryOnly<V, T> {
-    fn new(vertex: V, triangle: T) -> Self {
-        GeometryOnly { vertex, triangle, names_materials: false }
+impl<V, P> GeometryOnly<V, P> {
+    fn new(vertex: V, polygon: P) -> Self {
+        GeometryOnly { vertex, polygon, names_materials: false }
     }
 }
 
-impl<V: FnMut(Vec3), T: FnMut([u32; 3])> Visitor for GeometryOnly<V, T> {
+impl<V: FnMut(Vec3), P: FnMut(&[Corner])> Visitor for GeometryOnly<V, P> {
     fn position(&mut self, position: Vec3) {
         (self.vertex)(position);
     }
 
-    fn triangle(&mut self, corners: [Corner; 3]) {
-        (self.triangle)(corners.map(|[vertex, _, _]| vertex));
+    fn polygon(&mut self, corners: &[Corner]) {
+        (self.polygon)(corners);
     }
 
     fn material(&mut self, name: Option<String>) {
@@ -66,7 +68,7 @@ impl ObjFile {
     /// The first pass: visits all vertices and counts all definitions. It skips faces: the next pass knows which
     /// indices are defined.
     pub(crate) fn vertices(&mut self, visit: impl FnMut(Vec3)) -> Result<(), ReadObjError> {
-        let mut parser = Parser::new(GeometryOnly::new(visit, |_| ()), None);
+        let mut parser = Parser::new(GeometryOnly::new(visit, |_: &[Corner]| ()), None);
         let read = |line, words: Words| match words.clone().next() {
             Some(b"f" | b"fo") => Ok(()),
             _ => {
@@ -86,17 +88,19 @@ impl ObjFile {
     }
 
     /// A later pass: visits all triangles in file order. Their indices are those of vertices that the first pass
-    /// has visited.
+    /// has visited, at these positions.
     pub(crate) fn triangles(
         &mut self,
+        positions: &Positions,
         mut visit: impl FnMut([u32; 3]),
     ) -> Result<(), ReadObjError> {
-        let mut found = false;
-        let triangle = |corners| {
+        let (mut found, mut cutter) = (false, Cutter::default());
+        let polygon = |corners: &[Corner]| {
             found = true;
-            visit(corners);
+            let position = |[vertex, _, _]: Corner| positions.get(vertex);
+            cutter.visit(corners, position, |of| visit(of.map(|[vertex, _, _]| vertex)));
         };
-        let mut parser = Parser::new(GeometryOnly::new(|_| (), triangle), Some(self.total));
+        let mut parser = Parser::new(GeometryOnly::new(|_| (), polygon), Some(self.total));
         self.statements(|line, words| parser.statement(line, words))?;
         if found { Ok(()) } else { Err(ReadObjError::NoFaces { file: self.name.clone() }) }
     }

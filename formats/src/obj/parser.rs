@@ -1,4 +1,4 @@
-//! The parser of OBJ files: from statements to positions, values and triangles with checked indices.
+//! The parser of OBJ files: from statements to positions, values and polygons with checked indices.
 
 use super::error::{IndexKind, StatementFault};
 use super::visitor::{Corner, Visitor};
@@ -15,6 +15,8 @@ pub(super) struct Parser<V> {
     total: Option<[usize; 3]>,
     /// References to definitions further down, for each [`IndexKind`]; empty if the total is known.
     forward: [Vec<ForwardReference>; 3],
+    /// The corners of a face while it is parsed.
+    corners: Vec<Corner>,
 }
 
 /// A face that names something further down in the file.
@@ -32,7 +34,8 @@ impl<V: Visitor> Parser<V> {
     /// A parser at the beginning of a file. `total` is the number of definitions in the whole file, for each
     /// [`IndexKind`], if it is known from an earlier pass.
     pub(super) fn new(visitor: V, total: Option<[usize; 3]>) -> Self {
-        Parser { visitor, defined: [0; 3], total, forward: Default::default() }
+        let (forward, corners) = Default::default();
+        Parser { visitor, defined: [0; 3], total, forward, corners }
     }
 
     /// A parser behind so many definitions, for each [`IndexKind`].
@@ -82,21 +85,20 @@ impl<V: Visitor> Parser<V> {
         self.defined[IndexKind::Vertex as usize] += 1;
     }
 
-    /// Passes on the triangles of one polygon, cut into a fan.
+    /// Passes on a polygon.
     fn face(&mut self, line: usize, words: Words) -> Result<(), StatementFault> {
-        let (mut first, mut before) = ([NONE; 3], [NONE; 3]);
-        let mut corners = 0;
+        self.corners.clear();
         for word in words {
             let corner = self.corner(line, word)?;
-            match corners {
-                0 => first = corner,
-                1 => {}
-                _ => self.visitor.triangle([first, before, corner]),
-            }
-            before = corner;
-            corners += 1;
+            self.corners.push(corner);
         }
-        if corners < 3 { Err(StatementFault::TooFewCorners { corners }) } else { Ok(()) }
+        match self.corners.len() {
+            corners @ 0..3 => Err(StatementFault::TooFewCorners { corners }),
+            _ => {
+                self.visitor.polygon(&self.corners);
+                Ok(())
+            }
+        }
     }
 
     fn corner(&mut self, line: usize, word: &[u8]) -> Result<Corner, StatementFault> {

@@ -72,9 +72,7 @@ impl<V: Visitor> Parser<V> {
                 }
             }
         }
-        for k in 2..corners {
-            self.visitor.triangle([known[0], known[k - 1], known[k]]);
-        }
+        self.visitor.polygon(&known[..corners]);
         Ok(Some(at + 1))
     }
 }

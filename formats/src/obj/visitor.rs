@@ -12,9 +12,9 @@ pub(super) trait Visitor {
     fn texture_coordinate(&mut self, _value: Vec2) {}
     /// A normal.
     fn normal(&mut self, _normal: Vec3) {}
-    /// A triangle of a face.
-    fn triangle(&mut self, corners: [Corner; 3]);
-    /// The material of the triangles that follow; `None` ends the use of the material before it.
+    /// A face of at least three corners.
+    fn polygon(&mut self, corners: &[Corner]);
+    /// The material of the faces that follow; `None` ends the use of the material before it.
     fn material(&mut self, _name: Option<String>) {}
     /// A file that defines materials.
     fn material_library(&mut self, _name: &str) {}

@@ -6,10 +6,11 @@ use super::quick::{Decoded, FaceLayout, VertexLayout};
 use super::values::{ValueError, ValueReader};
 use super::vertex::Vertex;
 use crate::attributes::{NONE, linear_colors};
+use crate::polygon::{Cutter, Fans, MOST_CORNERS, fan};
 use crate::source::quote::shown;
 use crate::source::{READ_AT_ONCE, regular_file};
 use crate::warning::MaterialWarning;
-use bothways_common::scene::{Attribute, Mesh};
+use bothways_common::scene::{Attribute, Mesh, Positions};
 use glam::Vec3;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek, SeekFrom};
@@ -73,7 +74,14 @@ impl<R: BufRead + Seek> PlyFile<R> {
                 colors.push(vertex.color);
             }
         };
-        self.visit(Pass::Everything, &mut vertex, &mut |t| triangles.push(t))?;
+        // Faces may come before the vertices: which of them must not be fans is found at the end.
+        let mut fans = Fans::default();
+        let mut polygon = |corners: &[u32]| {
+            fans.add(triangles.len(), corners.len());
+            triangles.extend(fan(corners));
+        };
+        self.visit(Pass::Everything, &mut vertex, &mut polygon)?;
+        fans.recuts(&positions, &triangles).apply(&mut triangles);
         let normals = normals_of(&triangles, normals);
         Ok(Mesh::new(positions, triangles)
             .and_then(|mesh| mesh.with_normals(normals))
@@ -97,7 +105,11 @@ impl<R: BufRead + Seek> PlyFile<R> {
 
     /// Visits all vertices, and does not read what follows them.
     pub(crate) fn vertices(&mut self, mut visit: impl FnMut(Vec3)) -> Result<(), ReadPlyError> {
-        self.visit(Pass::Vertices, &mut |vertex: Vertex| visit(vertex.position), &mut |_| ())
+        self.visit(
+            Pass::Vertices,
+            &mut |vertex: Vertex| visit(vertex.position),
+            &mut |_: &[u32]| (),
+        )
     }
 
     /// A warning if the file has colours or textures: no stream reads them.
@@ -108,20 +120,26 @@ impl<R: BufRead + Seek> PlyFile<R> {
     }
 
     /// Visits all triangles in file order, and reads the whole file but its vertices. The indices are those of
-    /// vertices that the header announces.
+    /// vertices that the header announces, at these positions.
     pub(crate) fn triangles(
         &mut self,
+        positions: &Positions,
         mut visit: impl FnMut([u32; 3]),
     ) -> Result<(), ReadPlyError> {
-        self.visit(Pass::Triangles, &mut |_| (), &mut visit)
+        let mut cutter = Cutter::default();
+        let mut polygon = |corners: &[u32]| {
+            cutter.visit(corners, |vertex| positions.get(vertex), &mut visit);
+        };
+        self.visit(Pass::Triangles, &mut |_| (), &mut polygon)
     }
 
-    /// Reads the elements that a pass needs, in file order, and visits vertices and triangles.
+    /// Reads the elements that a pass needs, in file order, and visits vertices and polygons. A polygon that is a fan whatever
+    /// its positions may come as its triangles.
     fn visit(
         &mut self,
         pass: Pass,
         vertex: &mut impl FnMut(Vertex),
-        triangle: &mut impl FnMut([u32; 3]),
+        polygon: &mut impl FnMut(&[u32]),
     ) -> Result<(), ReadPlyError> {
         let PlyFile { name, header, input, length } = self;
         let unreadable = |error| ReadPlyError::Unreadable { file: name.clone(), error };
@@ -141,11 +159,11 @@ impl<R: BufRead + Seek> PlyFile<R> {
             while number < group.count {
                 // All that is in memory at once; and then one element by itself, which is wrong, or not all in memory.
                 let bytes = values.in_memory().map_err(unreadable)?;
-                let decoded = quick.decode(bytes, group.count - number, vertex, triangle);
+                let decoded = quick.decode(bytes, group.count - number, vertex, polygon);
                 values.consume(decoded.bytes);
                 number += decoded.elements;
                 if number < group.count {
-                    let element = element(&mut values, header, group, vertex, triangle);
+                    let element = element(&mut values, header, group, vertex, polygon);
                     element.map_err(|error| located(name, group, number, &values, error))?;
                     number += 1;
                 }
@@ -185,11 +203,11 @@ impl Quick {
         bytes: &[u8],
         most: u64,
         vertex: &mut impl FnMut(Vertex),
-        triangle: &mut impl FnMut([u32; 3]),
+        polygon: &mut impl FnMut(&[u32]),
     ) -> Decoded {
         match self {
             Quick::Vertices(layout) => layout.decode(bytes, most, vertex),
-            Quick::Faces(layout) => layout.decode(bytes, most, triangle),
+            Quick::Faces(layout) => layout.decode(bytes, most, polygon),
             Quick::Nothing => Decoded::default(),
         }
     }
@@ -213,7 +231,7 @@ fn element<R: BufRead + Seek>(
     header: &Header,
     group: &ElementGroup,
     vertex: &mut impl FnMut(Vertex),
-    triangle: &mut impl FnMut([u32; 3]),
+    polygon: &mut impl FnMut(&[u32]),
 ) -> Result<(), ValueError> {
     values.begin_element()?;
     let (is_vertex, is_face) = (group.name == "vertex", group.name == "face");
@@ -233,7 +251,7 @@ fn element<R: BufRead + Seek>(
                 }
             }
             (PropertyType::List { length, item }, _) if is_face && k == header.corners => {
-                fan(values, length, item, header.vertices, triangle)?;
+                corners(values, length, item, header.vertices, polygon)?;
             }
             (PropertyType::List { length, item }, _) => {
                 let length = values.integer(length)?;
@@ -252,13 +270,14 @@ fn element<R: BufRead + Seek>(
     Ok(())
 }
 
-/// Reads one polygon and visits its fan. At most three of its corners are in memory at once.
-fn fan<R: BufRead + Seek>(
+/// Reads one polygon and visits it. One that is always a fan is visited as triangles: at most three of its corners are in
+/// memory at once.
+fn corners<R: BufRead + Seek>(
     values: &mut ValueReader<R>,
     length: ScalarType,
     item: ScalarType,
     vertices: u32,
-    triangle: &mut impl FnMut([u32; 3]),
+    polygon: &mut impl FnMut(&[u32]),
 ) -> Result<(), ValueError> {
     let corners = values.integer(length)?;
     if corners < 3 {
@@ -271,10 +290,15 @@ fn fan<R: BufRead + Seek>(
             _ => Err(ValueError::Fault(ElementFault::UnknownVertex { index, count: vertices })),
         }
     };
+    if usize::try_from(corners).is_ok_and(|corners| (4..=MOST_CORNERS).contains(&corners)) {
+        let read: Result<Vec<u32>, ValueError> = (0..corners).map(|_| corner()).collect();
+        polygon(&read?);
+        return Ok(());
+    }
     let (first, mut before) = (corner()?, corner()?);
     for _ in 2..corners {
         let next = corner()?;
-        triangle([first, before, next]);
+        polygon(&[first, before, next]);
         before = next;
     }
     Ok(())

@@ -108,15 +108,10 @@ impl FaceLayout {
         })
     }
 
-    /// Decodes at most `most` faces into triangles, up to the first that is wrong or goes on behind the bytes.
-    pub(super) fn decode(
-        &self,
-        bytes: &[u8],
-        most: u64,
-        mut visit: impl FnMut([u32; 3]),
-    ) -> Decoded {
+    /// Decodes at most `most` faces into polygons, up to the first that is wrong or goes on behind the bytes.
+    pub(super) fn decode(&self, bytes: &[u8], most: u64, mut visit: impl FnMut(&[u32])) -> Decoded {
         let (length_size, item_size) = (self.length.size(), self.item.size());
-        let mut decoded = Decoded::default();
+        let (mut decoded, mut known) = (Decoded::default(), [0; MOST_CORNERS]);
         while decoded.elements < most {
             let triangles =
                 self.decode_triangles(&bytes[decoded.bytes..], most - decoded.elements, &mut visit);
@@ -131,12 +126,13 @@ impl FaceLayout {
             }
             let corners = whole(face, self.before, self.length, self.is_big_endian);
             let first = self.before + length_size;
-            // A longer list is left to the reader of single values, which holds three of its corners at a time.
-            if !(3..=MOST_CORNERS).contains(&corners) {
+            // A longer list is left to the reader of single values.
+            let Some(corners) = usize::try_from(corners)
+                .ok()
+                .filter(|corners| (3..=MOST_CORNERS).contains(corners))
+            else {
                 break;
-            }
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "3 to 64")]
-            let corners = corners as usize;
+            };
             let end = first + corners * item_size + self.after;
             if face.len() < end {
                 break;
@@ -149,9 +145,8 @@ impl FaceLayout {
             }
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a vertex")]
             let vertex = |k: usize| index(k) as u32;
-            for k in 2..corners {
-                visit([vertex(0), vertex(k - 1), vertex(k)]);
-            }
+            known[..corners].iter_mut().enumerate().for_each(|(k, known)| *known = vertex(k));
+            visit(&known[..corners]);
             decoded.elements += 1;
             decoded.bytes += end;
         }
@@ -161,12 +156,7 @@ impl FaceLayout {
 
 impl FaceLayout {
     /// Decodes the triangles at the beginning, if indices have four bytes and their number one, as in most files.
-    fn decode_triangles(
-        &self,
-        bytes: &[u8],
-        most: u64,
-        mut visit: impl FnMut([u32; 3]),
-    ) -> Decoded {
+    fn decode_triangles(&self, bytes: &[u8], most: u64, mut visit: impl FnMut(&[u32])) -> Decoded {
         let mut decoded = Decoded::default();
         if self.length.size() != 1 || self.item.size() != 4 {
             return decoded;
@@ -183,7 +173,7 @@ impl FaceLayout {
             if corners != 3 || !is_known || decoded.elements == most {
                 break;
             }
-            visit(triangle);
+            visit(&triangle);
             decoded.elements += 1;
             decoded.bytes += size;
         }
@@ -192,7 +182,7 @@ impl FaceLayout {
 }
 
 /// The most corners of a face that is decoded in one go.
-const MOST_CORNERS: i64 = 64;
+const MOST_CORNERS: usize = 64;
 
 /// The order of the bytes of a number; `None` for words.
 fn is_big_endian(header: &Header) -> Option<bool> {

@@ -4,6 +4,7 @@ use super::header::Encoding;
 use super::*;
 use crate::source::GivenFile;
 use bothways_common::look::color::{linear_from_encoded, linear_from_srgb};
+use bothways_common::scene::Positions;
 use glam::Vec3;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -114,8 +115,10 @@ fn all_types_are_read_in_all_encodings() {
         let mut file = PlyFile::new("a".into(), Cursor::new(bytes.as_slice())).unwrap();
         let (mut positions, mut triangles) = (Vec::new(), Vec::new());
         for _ in 0..2 {
-            file.vertices(|position| positions.push(position)).unwrap();
-            file.triangles(|triangle| triangles.push(triangle)).unwrap();
+            let known = &mut Positions::default();
+            file.vertices(|position| known.push(position)).unwrap();
+            positions.extend(known.iter());
+            file.triangles(known, |triangle| triangles.push(triangle)).unwrap();
         }
         assert_eq!(positions, [expected, expected].concat());
         assert_eq!(triangles, [[2, 0, 1], [2, 0, 1]]);
