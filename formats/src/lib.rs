@@ -60,7 +60,7 @@
 //! | [`source`] | opens files and finds those that they name, on the disk or in memory; prepares text from files for messages |
 //!
 //! Dependencies run downwards only: `scene_file` and `mesh_stream` know `mesh_file`, `mesh_file` knows the formats, and the
-//! formats know `source` and `warning`. So a new mesh format is a module beside `obj` and `ply`, and a variant of
+//! formats know `source` and `warning`, and what cuts their polygons into triangles. So a new mesh format is a module beside `obj` and `ply`, and a variant of
 //! [`mesh_file::Format`].
 //!
 //! # Errors

@@ -2,6 +2,7 @@
 //!
 //! Vertices stay in memory, 12 bytes each, because any face may name any of them. Faces are read again in every pass.
 //! The facets of an STL file name no vertices: there a table of their places stays in memory as well, 20 to 40 bytes each.
+//! A polygon that is not a triangle is in memory while it is cut, which takes a look at its positions in every pass.
 //! Only positions are read, without normals, texture coordinates and materials: few triangles of so large a mesh
 //! would show them.
 
@@ -272,7 +273,7 @@ mod tests {
     }
 
     /// Pieces of OBJ files, and some that do not occur in them.
-    const PIECES: [&str; 22] = [
+    const PIECES: [&str; 24] = [
         "v 1 2 3\n",
         "v 1 0 0\r\n",
         "v 0 1 0 \\\n7\n",
@@ -282,6 +283,8 @@ mod tests {
         "f 1 2 3\n",
         "f 3 2 1 4\n",
         "f -1 -2 -3\n",
+        "f 1 2 -1 -2 -3\n",
+        "v 2 -1 0\n",
         "f 1/1 2/1 3/1\n",
         "f 1//1 2 \\\r\n 3\n",
         "fo 2 1 3\n",

@@ -8,8 +8,8 @@
 //! - `v x y z`, `vt u [v]`, `vn x y z`: each number is rounded once, to the nearest `f32`. `v x y z r g b` gives a vertex a
 //!   colour, from 0 to 1, which is read as sRGB: programs that write it show it unchanged. What else follows must be numbers and
 //!   is ignored; a weight `w` is for free-form curves only.
-//! - `f` with corners `v`, `v/vt`, `v//vn`, `v/vt/vn`: a polygon of any size, cut into the fan `(0, k, k + 1)` in file
-//!   order. A positive index counts from 1, a negative one counts back from the last definition above the face. A
+//! - `f` with corners `v`, `v/vt`, `v//vn`, `v/vt/vn`: a polygon of any size, cut into triangles in file order: into the fan
+//!   `(0, k, k + 1)` if that covers it, as it does if it is convex, and else ear by ear, up to 16,384 corners. A positive index counts from 1, a negative one counts back from the last definition above the face. A
 //!   positive index may name a definition further down in the file: some programs write faces first, and `tobj`,
 //!   which the tests compare with, accepts it too.
 //! - `#` at the beginning of a word begins a comment. A backslash at the end of a line joins the next line.

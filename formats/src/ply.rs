@@ -9,7 +9,8 @@
 //! - `nx`, `ny`, `nz` of the element `vertex`, if all three are there: its normal. One without direction (zero, or not
 //!   finite) is left out; if all are, the mesh has no normals.
 //! - The list `vertex_indices` or `vertex_index` of the element `face`, of any integer types: a polygon of any size, cut
-//!   into the fan `(0, k, k + 1)` in file order. Indices count from 0.
+//!   into triangles in file order: into the fan `(0, k, k + 1)` if that covers it, as it does if it is convex, and else ear by
+//!   ear, up to 16,384 corners. Indices count from 0.
 //! - `red`, `green`, `blue` of the element `vertex`, if all three are there: its colour, from 0 to 1, or to 255 or 65,535 in
 //!   integers. It is read as sRGB: programs that write it show it unchanged. The colours of faces are not read, and
 //!   neither are textures and their coordinates; [`read_with_warnings`] says so.

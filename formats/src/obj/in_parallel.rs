@@ -236,6 +236,8 @@ mod tests {
             b"f 1/ 2// 3/1/\n",
             b"fo 3 2 1\n",
             b"f 1 2 3 1 2 3\n",
+            b"f 1 2 -1 3 -2\n",
+            b"f 1/1/1 -1/2 -2 2//1 4\n",
             b"usemtl a\n",
             b"usemtl b c\n",
             b"usemtl\n",

@@ -30,7 +30,7 @@ fn fault(statement: &str) -> String {
 }
 
 #[test]
-fn polygons_become_fans_in_file_order() {
+fn convex_polygons_become_fans_in_file_order() {
     let mesh = mesh(&format!("{SQUARE}v -1 0.5 0\nf 2 3 4 5 1\nf 1 2 3\n"));
     assert_eq!(mesh.triangles(), [[1, 2, 3], [1, 3, 4], [1, 4, 0], [0, 1, 2]]);
 }

@@ -40,7 +40,7 @@ fn message_of_header(lines: &[&str]) -> String {
 }
 
 #[test]
-fn polygons_become_fans_in_file_order() {
+fn convex_polygons_become_fans_in_file_order() {
     let mesh = parse("a", square(2, "4 1 2 3 0\n3 0 1 2").as_bytes()).unwrap();
     assert_eq!(mesh.triangles(), [[1, 2, 3], [1, 3, 0], [0, 1, 2]]);
     assert_eq!(mesh.positions()[2], Vec3::new(1.0, 1.0, 0.0));

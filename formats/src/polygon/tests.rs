@@ -106,7 +106,8 @@ fn a_convex_polygon_stays_the_fan_also_where_its_corners_lie_in_no_plane() {
     let eight: [Whole; 8] = [[1, 0], [3, 0], [4, 1], [4, 3], [3, 4], [1, 4], [0, 3], [0, 1]];
     assert_eq!(cut(|k| level(eight[k]), 8), fan(8));
     for bent in [0.9, 1e-30] {
-        let saddle = |k: usize| level(eight[k]).with_z(if k % 2 == 0 { bent } else { 0.0 });
+        let saddle =
+            |k: usize| level(eight[k]).with_z(if k.is_multiple_of(2) { bent } else { 0.0 });
         assert_eq!(cut(saddle, 8), fan(8));
     }
     // So does one with corners on its edges, and one whose fan covers it from this corner.

@@ -4,5 +4,6 @@ mod generated_meshes;
 mod hostile_pictures;
 mod independent_writers;
 mod obj_against_tobj;
+mod polygons;
 mod scene_file;
 mod scene_file_errors;
