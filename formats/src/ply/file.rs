@@ -283,6 +283,8 @@ fn corners<R: BufRead + Seek>(
     if corners < 3 {
         return Err(ElementFault::TooFewCorners { corners }.into());
     }
+    // Its room is used again.
+    let mut indices = std::mem::take(&mut values.indices);
     let mut corner = || {
         let index = values.integer(item)?;
         match u32::try_from(index) {
@@ -291,16 +293,20 @@ fn corners<R: BufRead + Seek>(
         }
     };
     if usize::try_from(corners).is_ok_and(|corners| (4..=MOST_CORNERS).contains(&corners)) {
-        let read: Result<Vec<u32>, ValueError> = (0..corners).map(|_| corner()).collect();
-        polygon(&read?);
-        return Ok(());
+        indices.clear();
+        for _ in 0..corners {
+            indices.push(corner()?);
+        }
+        polygon(&indices);
+    } else {
+        let (first, mut before) = (corner()?, corner()?);
+        for _ in 2..corners {
+            let next = corner()?;
+            polygon(&[first, before, next]);
+            before = next;
+        }
     }
-    let (first, mut before) = (corner()?, corner()?);
-    for _ in 2..corners {
-        let next = corner()?;
-        polygon(&[first, before, next]);
-        before = next;
-    }
+    values.indices = indices;
     Ok(())
 }
 

@@ -42,6 +42,8 @@ pub(super) struct ValueReader<'a, R> {
     length: u64,
     /// The last word of an ASCII file.
     word: Vec<u8>,
+    /// The last indices that were read, of an element that has a list of them.
+    pub(super) indices: Vec<u32>,
 }
 
 /// The most bytes of a word. No number needs more: longer words are not numbers.
@@ -50,7 +52,8 @@ const MOST_BYTES_A_WORD: usize = 1024;
 impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
     pub(super) fn new(input: &'a mut R, header: &Header, length: u64) -> Self {
         let (encoding, position, line) = (header.encoding, header.bytes, header.lines + 1);
-        ValueReader { input, encoding, position, line, length, word: Vec::new() }
+        let (word, indices) = (Vec::new(), Vec::new());
+        ValueReader { input, encoding, position, line, length, word, indices }
     }
 
     /// The location of the next value.
