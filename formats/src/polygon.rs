@@ -10,7 +10,7 @@
 //!
 //! A polygon of `n` corners always becomes `n − 2` triangles, which go around as it does, and they depend on nothing but the
 //! positions of its corners. Where corners repeat or lie on a line, some triangles have no area. A polygon that crosses itself
-//! has ears until it has none; the rest of it becomes a fan. All signs are exact, see [`turn`].
+//! has ears until it has none; the rest of it becomes a fan. All signs are exact: see `turn.rs`.
 
 mod fans;
 #[cfg(test)]
@@ -209,7 +209,8 @@ impl Cutter {
         self.wait(corner);
     }
 
-    /// Puts a corner among those that may be ears: a thorn first, since no corner can tell one that lies outside.
+    /// Puts a corner among those that may be ears: a thorn first. At its foot, where two corners lie in
+    /// one place, neither tells whether it lies inside or outside.
     fn wait(&mut self, corner: u32) {
         let is_waiting = std::mem::replace(&mut self.ring[corner as usize].is_waiting, true);
         if self.is_thorn(corner) {
