@@ -14,6 +14,7 @@ mod draw;
 mod encoding;
 mod evidence;
 mod expected;
+mod finding;
 mod fit;
 mod near;
 mod numbering;
@@ -39,10 +40,11 @@ pub use convention::{
     Vertices,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
+pub use finding::{Explanation, Finding, Findings};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};
 pub use reason::{Reason, ReasonKind, TieRules};
 pub use samples::camera_of_samples;
-pub use search::{Explanation, Finding, Findings, SearchError, find_conventions};
+pub use search::{SearchError, find_conventions};
 pub use sentence::alternatives;
 pub use size::{OtherSize, cause_of_size, check_size};
 pub use together::{CommonExplanation, Rendering, find_common_conventions};

@@ -149,9 +149,8 @@ impl<'a> Why<'a> {
 
     /// Whether the scene explains neither file: what both look like beside each other may say more.
     pub(super) fn explains_nothing(&self) -> bool {
-        let explains = |found: &Findings| {
-            matches!(found.finding, Finding::Explained(_) | Finding::NoEvidence(_))
-        };
+        let explains =
+            |found: &Findings| !matches!(found.finding, Finding::True | Finding::Unexplained(_));
         !self.conventions.iter().flatten().any(explains)
     }
 
@@ -217,6 +216,12 @@ impl<'a> Why<'a> {
             Finding::NoEvidence(reason) => {
                 line(text, format_args!("{name} says nothing about conventions: {reason}"));
             }
+            Finding::Rounded => line(
+                text,
+                format_args!(
+                    "{name} is wrong in {wrong}, by rounding alone: its conventions are those of the scene"
+                ),
+            ),
             Finding::Unexplained(place) => {
                 let place = place.as_ref().map_or(String::new(), |place| format!("; {place}"));
                 line(
@@ -413,6 +418,7 @@ impl<'a> Why<'a> {
                 Finding::NoEvidence(reason) => {
                     (Some(*differing), "no_evidence", Some(reason.clone()), &[][..])
                 }
+                Finding::Rounded => (Some(*differing), "rounding", None, &[][..]),
                 Finding::Unexplained(place) => {
                     (Some(*differing), "unexplained", place.clone(), &[][..])
                 }

@@ -19,6 +19,7 @@ use super::draw::{Drawn, Rows, draw, equally_near};
 use super::encoding::{Encoding, IdEncoding, NothingEncoding};
 use super::evidence::no_evidence;
 use super::expected::{Expected, Score, score_of_truth};
+use super::finding::{Finding, Findings};
 use super::observed::{Observed, Values};
 use super::place::common_place;
 use crate::common::View;
@@ -27,63 +28,6 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::sync::OnceLock;
-
-/// What a search found.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Findings {
-    /// The number of pixels of the file.
-    pub pixels: u64,
-    /// The number of pixels that are not what is true of the scene.
-    pub differing: u64,
-    /// What was found.
-    pub finding: Finding,
-}
-
-/// What a search found.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Finding {
-    /// The file shows what is true of the scene.
-    True,
-    /// The file can say nothing about conventions; the reason, as a sentence.
-    NoEvidence(String),
-    /// These conventions explain pixels; all of them explain the same number.
-    Explained(Vec<Explanation>),
-    /// No convention explains as much as a quarter of the pixels. What all of them show or should show, as a sentence, if that is
-    /// one thing.
-    Unexplained(Option<String>),
-}
-
-/// Conventions that explain differing pixels.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Explanation {
-    /// Where and how the renderer samples, and what it draws.
-    pub convention: Convention,
-    /// What its numbers stand for.
-    pub encoding: Encoding,
-    /// The number of differing pixels that are as expected under these conventions.
-    pub explained: u64,
-    /// The number of pixels that differ under these conventions, too.
-    pub remaining: u64,
-    /// The explained pixels `[i, j]`, row by row; none if the file has another size than the camera's image.
-    pub pixels: Vec<[u32; 2]>,
-}
-
-impl Explanation {
-    /// The middle one of the explained pixels.
-    pub fn telling(&self) -> Option<[u32; 2]> {
-        self.pixels.get(self.pixels.len() / 2).copied()
-    }
-
-    /// Whether the explanation is more than a rule for exact ties.
-    pub fn is_coarse(&self) -> bool {
-        !self.encoding.is_ours() || self.convention.changes().into_iter().any(Change::is_coarse)
-    }
-
-    /// Whether less than half of the differing pixels are explained.
-    pub fn is_a_guess(&self, differing: u64) -> bool {
-        self.explained * 2 < differing
-    }
-}
 
 /// Why a file cannot be searched for conventions.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -131,6 +75,7 @@ pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchEr
     let ours = score_of_truth(view, &observed, &placements, &truth);
     let search = Search {
         view,
+        file,
         observed: &observed,
         meanings_of_nothing: observed.meanings_of_nothing(view.scene.primitive_count()),
         placements: &placements,
@@ -161,6 +106,7 @@ const MOST_EXPLANATIONS: usize = 6;
 
 struct Search<'a> {
     view: &'a View<'a>,
+    file: &'a Buffer<'a>,
     observed: &'a Observed,
     meanings_of_nothing: Vec<NothingEncoding>,
     placements: &'a [Placement],
@@ -180,9 +126,8 @@ impl Search<'_> {
         if let Some(reason) = no_evidence(self.view, self.observed, self.truth) {
             return Finding::NoEvidence(reason);
         }
-        let explanations = self.by_vertices();
-        if !explanations.is_empty() {
-            return Finding::Explained(explanations);
+        if let Some(found) = self.nearly_right() {
+            return found;
         }
         let mut finalists = self.finalists();
         finalists = self.improved(finalists, ours);

@@ -8,7 +8,7 @@ use super::convention::{
     Change, Convention, Depth, Edges, Faces, Look, Placement, Rays, Sampling, Vertices,
 };
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
-use super::search::Explanation;
+use super::finding::Explanation;
 use crate::common::{Camera, Projection};
 use crate::wording::{readable, three_digits};
 use camera::{of_fields, of_framing, of_pose};

@@ -1,6 +1,7 @@
 //! What may explain that a file has another size than is expected.
 
-use super::search::{Finding, find_conventions};
+use super::finding::Finding;
+use super::search::find_conventions;
 use crate::common::View;
 use crate::diff::buffer::Buffer;
 

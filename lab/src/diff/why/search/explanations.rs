@@ -1,11 +1,12 @@
 //! What is named of all that was tried.
 
-use super::{Explanation, MOST_EXPLANATIONS, Search};
+use super::{MOST_EXPLANATIONS, Search};
 use crate::diff::why::candidate::{Candidate, as_good, parts};
 use crate::diff::why::convention::{Convention, Placement};
 use crate::diff::why::draw::Rows;
 use crate::diff::why::encoding::Encoding;
 use crate::diff::why::expected::{Expected, Score};
+use crate::diff::why::finding::Explanation;
 
 impl Search<'_> {
     /// The explanations that leave as few pixels as the best one, simplest first.

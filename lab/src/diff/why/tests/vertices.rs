@@ -61,3 +61,23 @@ fn vertices_that_are_rounded_are_named_from_ids() {
         }
     });
 }
+
+#[test]
+fn what_rounding_alone_decides_is_called_so_unless_something_else_is_wrong_too() {
+    let loaded = scenes::load("slivers").unwrap();
+    let [width, height] = [320, 240];
+    let camera = CameraDescription { image: [width, height], ..loaded.camera };
+    let camera = Camera::new(camera).unwrap();
+    let view = View::new(&loaded.scene, &camera);
+    let mut ids =
+        numbers(&object_order::render(&view, &Options::default(), "float32".parse().unwrap()));
+    let finding = |ids: &[Option<u64>]| {
+        let file = Buffer::new([width, height], 1, Content::Ids(ids.to_vec()));
+        find_conventions(&view, &file).unwrap()
+    };
+    let Findings { differing, finding: of_rounding, .. } = finding(&ids);
+    assert!(differing > 30 && of_rounding == Finding::Rounded, "{differing}");
+    let known = ids.iter_mut().find(|id| id.is_some()).unwrap();
+    *known = Some(1);
+    assert_ne!(finding(&ids).finding, Finding::Rounded);
+}
