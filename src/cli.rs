@@ -31,6 +31,7 @@ mod progress;
 mod reason;
 mod rules;
 mod run;
+mod shell;
 mod show_camera;
 mod slides;
 mod status_line;

@@ -2,6 +2,7 @@
 
 use super::command::Cli;
 use super::failure::Failure;
+use super::shell::quoted;
 use super::terminal::tame;
 use bothways::formats::scene_file::nearest_name;
 use bothways::formats::source::quote::visible;
@@ -111,31 +112,9 @@ fn excess(error: &clap::Error, words: &[String]) -> Option<String> {
     Some(format!("'{}' is a word too many: {remedy}", visible(word)))
 }
 
-/// A word as a shell takes it: in quotes where it needs them.
-pub(super) fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=+:".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", visible(word).replace('\'', r"'\''"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_word_that_a_shell_would_take_apart_stands_in_quotes() {
-        for (word, taken) in [
-            ("bunny.obj", "bunny.obj"),
-            ("my mesh.obj", "'my mesh.obj'"),
-            ("room.glb#left eye", "'room.glb#left eye'"),
-            ("it's.obj", r"'it'\''s.obj'"),
-            ("", "''"),
-        ] {
-            assert_eq!(quoted(word), taken);
-        }
-    }
 
     fn says(line: &[&str]) -> Option<String> {
         let words: Vec<String> = line[1..].iter().map(|&word| word.to_owned()).collect();

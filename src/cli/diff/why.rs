@@ -4,7 +4,7 @@ use super::inputs::{self, SceneArgs};
 use super::text::line;
 use crate::cli::args::ProjectionArg;
 use crate::cli::failure::Failure;
-use crate::cli::usage::quoted;
+use crate::cli::shell::quoted;
 use anstyle::Style;
 use bothways::common::{Camera, Crop, Scene, View};
 use bothways::diff::foreign::{

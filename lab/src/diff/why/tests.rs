@@ -75,7 +75,8 @@ fn is_named(view: &View, planted: &Convention, of_ids: bool) -> bool {
             found.iter().all(|one| one.remaining * 1000 <= differing)
                 && found.iter().any(|one| is_planted(one) || is_simpler(one))
         }
-        Finding::Unexplained(_) | Finding::Rounded => false,
+        Finding::Rounded => planted.vertices != Vertices::Projected && differing < 4,
+        Finding::Unexplained(_) => false,
     }
 }
 

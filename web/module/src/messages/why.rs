@@ -149,6 +149,9 @@ pub(crate) fn sentence_about(view: &View, frame: &Frame, name: &str) -> String {
             )
         }
         Finding::NoEvidence(reason) => format!("The convention finder cannot tell: {reason}."),
+        Finding::Rounded => format!(
+            "The convention finder says: {name} has the conventions of the scene, and is wrong by rounding alone."
+        ),
         Finding::Unexplained(_) => format!(
             "The convention finder knows no convention under which {name} would be right: the reasons of single pixels \
              tell more."

@@ -6,13 +6,17 @@ use crate::diff::why::convention::{Change, Convention, Placement, Vertices};
 use crate::diff::why::encoding::Encoding;
 use crate::diff::why::expected::Expected;
 use crate::diff::why::finding::{Explanation, Finding};
-use crate::diff::why::pixels::find_reasons;
-use crate::diff::why::reason::ReasonKind;
+use crate::diff::why::pixels::{PixelReason, find_reasons};
+use crate::diff::why::reason::Reason;
 
 /// One pixel in so many may differ in a picture that is nearly right.
 const MANY: u64 = 50;
-/// So few pixels may be as expected, or near an outline, by accident.
-const FEWEST_PIXELS: u64 = 16;
+/// Fewer pixels may be as expected by accident. What changes no others is rarely that.
+const FEWEST_PIXELS: u64 = 4;
+/// Fewer pixels may lie near outlines by accident, unless they lie very near.
+const FEW_PIXELS: u64 = 16;
+/// How near: half a step of a GPU's grid, in pixels.
+const VERY_NEAR: f64 = 1.0 / 512.0;
 /// One of so many differing pixels may be left by a way of rounding vertices: the renderer rounds elsewhere, too.
 const LEFT: u64 = 10;
 
@@ -22,12 +26,14 @@ impl Search<'_> {
     pub(super) fn nearly_right(&self) -> Option<Finding> {
         let ours = self.ours_in_place();
         let (differing, pixels) = (ours.score.differing, self.truth.ids.len() as u64);
-        if differing < FEWEST_PIXELS || differing * MANY > pixels {
+        if differing * MANY > pixels {
             return None;
         }
-        let by_vertices = self.by_vertices(&ours);
-        if !by_vertices.is_empty() {
-            return Some(Finding::Explained(by_vertices));
+        if differing >= FEWEST_PIXELS {
+            let by_vertices = self.by_vertices(&ours);
+            if !by_vertices.is_empty() {
+                return Some(Finding::Explained(by_vertices));
+            }
         }
         self.is_by_rounding_alone(&ours).then_some(Finding::Rounded)
     }
@@ -57,9 +63,13 @@ impl Search<'_> {
                 differing.push([number(index / width), number(index % width)]);
             }
         });
-        let is_rounding =
-            |kind| matches!(kind, ReasonKind::Rounding | ReasonKind::DistanceRounding);
+        let are_few = (differing.len() as u64) < FEW_PIXELS;
+        let is_rounding = |one: &PixelReason| match one.reason {
+            Reason::Rounding { pixels, .. } => !are_few || pixels <= VERY_NEAR,
+            Reason::DistanceRounding { .. } => true,
+            _ => false,
+        };
         find_reasons(self.view, self.file, self.file, &differing)
-            .is_ok_and(|reasons| reasons.count_of(|kind| !is_rounding(kind)) == 0)
+            .is_ok_and(|reasons| reasons.pixels.iter().all(is_rounding))
     }
 }
