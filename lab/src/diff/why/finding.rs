@@ -52,7 +52,7 @@ impl Explanation {
         self.pixels.get(self.pixels.len() / 2).copied()
     }
 
-    /// Whether the explanation is more than a rule for exact ties.
+    /// Whether the explanation moves much of the picture, rather than a few samples on edges, or nearly so, or at equal distances.
     pub fn is_coarse(&self) -> bool {
         !self.encoding.is_ours() || self.convention.changes().into_iter().any(Change::is_coarse)
     }
