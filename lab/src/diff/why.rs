@@ -11,6 +11,7 @@ mod convention;
 mod differences;
 mod distances;
 mod draw;
+mod drawn;
 mod encoding;
 mod evidence;
 mod expected;

@@ -3,7 +3,8 @@
 //! The loop is the lecture's object order with bounding boxes. It decides in `f64` where the bound of the roundoff
 //! allows, and asks the exact judge elsewhere: a hypothesis is held against the pixels without noise of its own.
 
-use super::convention::{Convention, Depth, Edges, Faces, Look, Omission, Part, Vertices};
+use super::convention::{Convention, Depth, Edges, Faces, Look, Omission, Vertices};
+use super::drawn::{Drawn, Rows};
 use super::outline::{
     Area, PlaneDistance, TriangleOutline, area_of_sphere, area_of_triangle, whole,
 };
@@ -16,66 +17,6 @@ use crate::common::{Judge, Primitive, Projection, Ray, Sign, View};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::ops::Range;
-
-/// What is seen of a scene in some rows of a picture.
-#[derive(Clone, Debug)]
-pub(super) struct Drawn {
-    width: usize,
-    /// The row numbers, ascending and equally spaced.
-    pub(super) rows: Vec<usize>,
-    /// The visible primitive of each pixel, row by row; `NO_PRIMITIVE` for nothing.
-    pub(super) ids: Vec<u32>,
-    /// Its distance `t`.
-    pub(super) t: Vec<f64>,
-}
-
-impl Drawn {
-    /// Gives every pixel what the first one sees.
-    fn repeat_first(&mut self) {
-        let (Some(&id), Some(&t)) = (self.ids.first(), self.t.first()) else { return };
-        self.ids.fill(id);
-        self.t.fill(t);
-    }
-
-    /// Shows nothing but in these rows and columns.
-    fn keep_only(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
-        for (line, row) in self.rows.iter().enumerate() {
-            let kept = if rows.contains(row) { columns.clone() } else { 0..0 };
-            let begin = line * self.width;
-            for beside in [begin..begin + kept.start, begin + kept.end..begin + self.width] {
-                self.ids[beside.clone()].fill(NO_PRIMITIVE);
-                self.t[beside].fill(f64::INFINITY);
-            }
-        }
-    }
-
-    /// Shows nothing in a part of the picture.
-    fn clear(&mut self, part: &Part) {
-        let [rows, columns] =
-            [part.rows, part.columns].map(|[first, last]| first as usize..=last as usize);
-        for (line, _) in self.rows.iter().enumerate().filter(|(_, row)| rows.contains(row)) {
-            let (begin, end) =
-                (line * self.width + columns.start(), line * self.width + columns.end());
-            self.ids[begin..=end].fill(NO_PRIMITIVE);
-            self.t[begin..=end].fill(f64::INFINITY);
-        }
-    }
-}
-
-/// The rows of a picture that are drawn: every `step`-th, and the same number of rows above as below.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Rows {
-    pub(super) step: usize,
-}
-
-impl Rows {
-    pub(super) const ALL: Rows = Rows { step: 1 };
-
-    fn numbers(self, height: usize) -> Vec<usize> {
-        let first = (height - 1) % self.step / 2;
-        (first..height).step_by(self.step).collect()
-    }
-}
 
 /// Draws the scene under a convention; placement is left to the reader of the picture.
 pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {

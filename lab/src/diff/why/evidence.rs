@@ -1,7 +1,7 @@
 //! Whether a file can tell conventions at all.
 
 use super::convention::Convention;
-use super::draw::Drawn;
+use super::drawn::Drawn;
 use super::encoding::NothingEncoding;
 use super::observed::{Observed, Values};
 use super::rays::ViewingRays;

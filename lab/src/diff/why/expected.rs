@@ -1,7 +1,7 @@
 //! A picture as the numbers of a file should show it, and how far a file is from it.
 
 use super::convention::{Convention, Placement};
-use super::draw::Drawn;
+use super::drawn::Drawn;
 use super::encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding, linear, window};
 use super::numbering::Numbering;
 use super::observed::{Observed, Values};

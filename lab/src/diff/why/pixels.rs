@@ -6,7 +6,8 @@
 
 use super::convention::{Convention, Edges};
 use super::distances::SampleDistances;
-use super::draw::{Drawn, Rows, covers, draw};
+use super::draw::{covers, draw};
+use super::drawn::{Drawn, Rows};
 use super::encoding::NothingEncoding;
 use super::finding::Explanation;
 use super::near::near_primitives;

@@ -1,7 +1,7 @@
 //! Where a file differs from the true picture, if one thing of the scene is seen or shown in every such pixel.
 
 use super::convention::{Convention, Placement, ShapeKind};
-use super::draw::Drawn;
+use super::drawn::Drawn;
 use super::encoding::Encoding;
 use super::expected::Expected;
 use super::observed::{Observed, Values};

@@ -15,7 +15,8 @@ mod pose;
 use super::candidate::{Candidate, as_good, parts};
 use super::convention::{Change, Convention, Evidence, Placement, Pose};
 use super::differences::Differences;
-use super::draw::{Drawn, Rows, draw, equally_near};
+use super::draw::{draw, equally_near};
+use super::drawn::{Drawn, Rows};
 use super::encoding::{Encoding, IdEncoding, NothingEncoding};
 use super::evidence::no_evidence;
 use super::expected::{Expected, Score, score_of_truth};
@@ -126,11 +127,12 @@ impl Search<'_> {
         if let Some(reason) = no_evidence(self.view, self.observed, self.truth) {
             return Finding::NoEvidence(reason);
         }
-        if let Some(found) = self.nearly_right() {
+        let placed = self.ours_in_place();
+        if let Some(found) = self.nearly_right(&placed) {
             return found;
         }
         let mut finalists = self.finalists();
-        finalists = self.improved(finalists, ours);
+        finalists = self.improved(finalists, ours, placed.convention);
         finalists.sort_by_key(Candidate::rank);
         let explanations = self.best(&finalists, ours);
         match explanations.first() {
@@ -335,14 +337,18 @@ impl Search<'_> {
     }
 
     /// Adds changes to the best of the finalists, and takes back those that explain too little.
-    fn improved(&self, mut finalists: Vec<Candidate>, by_ours: Score) -> Vec<Candidate> {
+    fn improved(
+        &self,
+        mut finalists: Vec<Candidate>,
+        by_ours: Score,
+        placed: Convention,
+    ) -> Vec<Candidate> {
         let differing = by_ours.differing;
         let changes = Change::of_rendering(self.view.camera);
         finalists.sort_by_key(Candidate::rank);
         let mut all = finalists.clone();
         let mut starts: Vec<Candidate> = finalists.iter().take(2).copied().collect();
         all.extend(starts.iter().flat_map(|start| self.with_tie_rules_instead(start, &changes)));
-        let placed = self.ours_in_place().convention;
         let ours = self.drawn_whole(placed);
         all.extend(self.with_suggestions(&ours));
         all.push(ours);

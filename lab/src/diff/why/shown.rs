@@ -1,7 +1,7 @@
 //! What a file shows as a whole, as far as it agrees with the truth: the reasons of single pixels ask for it.
 
 use super::distances::SampleDistances;
-use super::draw::Drawn;
+use super::drawn::Drawn;
 use super::encoding::NothingEncoding;
 use super::observed::{Observed, Values};
 use super::outline::TriangleOutline;

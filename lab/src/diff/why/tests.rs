@@ -7,7 +7,8 @@ mod stance_of_distances;
 mod stance_of_mask;
 mod vertices;
 
-use super::draw::{Rows, draw};
+use super::draw::draw;
+use super::drawn::Rows;
 use super::*;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::Vec3;

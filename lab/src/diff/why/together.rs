@@ -5,7 +5,8 @@
 //! every pixel.
 
 use super::convention::{Change, Convention, Placement, Rays};
-use super::draw::{Rows, draw};
+use super::draw::draw;
+use super::drawn::Rows;
 use super::encoding::{Encoding, NothingEncoding};
 use super::expected::Expected;
 use super::observed::{Observed, Values};

@@ -37,11 +37,8 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
 
 /// The name of an order, with its rule: "object order (corner)".
 fn name(rendered: &Rendered) -> String {
-    let name = rendered.name();
-    match name.split_once(", ") {
-        Some((order, rule)) => format!("{order} ({rule})"),
-        None => name,
-    }
+    let order = rendered.order.name();
+    rendered.rule.map_or(order.into(), |rule| format!("{order} ({rule})"))
 }
 
 /// What there is to see, in a sentence.

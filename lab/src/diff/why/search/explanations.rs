@@ -3,7 +3,7 @@
 use super::{MOST_EXPLANATIONS, Search};
 use crate::diff::why::candidate::{Candidate, as_good, parts};
 use crate::diff::why::convention::{Convention, Placement};
-use crate::diff::why::draw::Rows;
+use crate::diff::why::drawn::Rows;
 use crate::diff::why::encoding::Encoding;
 use crate::diff::why::expected::{Expected, Score};
 use crate::diff::why::finding::Explanation;
@@ -60,21 +60,32 @@ impl Search<'_> {
         if !self.placements.contains(&Placement::Upright) {
             return Vec::new();
         }
-        let mut wrong = vec![false; self.truth.ids.len()];
-        let ours = Expected::new(self.view, &Convention::default(), self.truth);
-        let none = Encoding::default();
-        ours.each(self.observed, Placement::Upright, &none, |index, differs, _| {
-            wrong[index] = differs;
-        });
+        let mut wrong = self.differing_by_ours();
         let drawn = self.drawn(&candidate.convention, Rows::ALL);
         let expected = Expected::new(self.view, &candidate.convention, &drawn);
         let placement = candidate.convention.placement;
         expected.each(self.observed, placement, &candidate.encoding, |index, differs, _| {
             wrong[index] &= !differs;
         });
+        self.pixels(&wrong)
+    }
+
+    /// Whether each pixel of an upright file differs under our conventions.
+    pub(super) fn differing_by_ours(&self) -> Vec<bool> {
+        let mut differing = vec![false; self.truth.ids.len()];
+        let ours = Expected::new(self.view, &Convention::default(), self.truth);
+        let none = Encoding::default();
+        ours.each(self.observed, Placement::Upright, &none, |index, differs, _| {
+            differing[index] = differs;
+        });
+        differing
+    }
+
+    /// The pixels `[i, j]` that are chosen, row by row.
+    pub(super) fn pixels(&self, chosen: &[bool]) -> Vec<[u32; 2]> {
         let width = self.view.camera.image()[0] as usize;
         let number = |side: usize| u32::try_from(side).expect("at most 2^16");
-        let explained = (0..wrong.len()).filter(|&index| wrong[index]);
-        explained.map(|index| [number(index / width), number(index % width)]).collect()
+        let chosen = (0..chosen.len()).filter(|&index| chosen[index]);
+        chosen.map(|index| [number(index / width), number(index % width)]).collect()
     }
 }

@@ -2,9 +2,7 @@
 
 use super::Search;
 use crate::diff::why::candidate::Candidate;
-use crate::diff::why::convention::{Change, Convention, Placement, Vertices};
-use crate::diff::why::encoding::Encoding;
-use crate::diff::why::expected::Expected;
+use crate::diff::why::convention::{Change, Convention, Vertices};
 use crate::diff::why::finding::{Explanation, Finding};
 use crate::diff::why::pixels::{PixelReason, find_reasons};
 use crate::diff::why::reason::Reason;
@@ -23,19 +21,18 @@ const LEFT: u64 = 10;
 impl Search<'_> {
     /// What is found where only pixels beside edges differ. Then nothing else is sought, which would take long: what moves more
     /// than rounding does leaves no picture nearly right.
-    pub(super) fn nearly_right(&self) -> Option<Finding> {
-        let ours = self.ours_in_place();
+    pub(super) fn nearly_right(&self, ours: &Candidate) -> Option<Finding> {
         let (differing, pixels) = (ours.score.differing, self.truth.ids.len() as u64);
         if differing * MANY > pixels {
             return None;
         }
         if differing >= FEWEST_PIXELS {
-            let by_vertices = self.by_vertices(&ours);
+            let by_vertices = self.by_vertices(ours);
             if !by_vertices.is_empty() {
                 return Some(Finding::Explained(by_vertices));
             }
         }
-        self.is_by_rounding_alone(&ours).then_some(Finding::Rounded)
+        self.is_by_rounding_alone(ours).then_some(Finding::Rounded)
     }
 
     /// Vertices on a fine grid, as GPUs have them, if they explain nearly all of the differing pixels.
@@ -50,19 +47,10 @@ impl Search<'_> {
     /// Whether each pixel that differs under our conventions lies so near to an outline that rounding decides it, or where two
     /// distances are as near.
     fn is_by_rounding_alone(&self, ours: &Candidate) -> bool {
-        let none = Encoding::default();
-        if ours.convention != Convention::default() || ours.encoding != none {
+        if ours.convention != Convention::default() || !ours.encoding.is_ours() {
             return false;
         }
-        let width = self.view.camera.image()[0] as usize;
-        let number = |side: usize| u32::try_from(side).expect("at most 2^16");
-        let mut differing = Vec::new();
-        let expected = Expected::new(self.view, &ours.convention, self.truth);
-        expected.each(self.observed, Placement::Upright, &none, |index, differs, _| {
-            if differs {
-                differing.push([number(index / width), number(index % width)]);
-            }
-        });
+        let differing = self.pixels(&self.differing_by_ours());
         let are_few = (differing.len() as u64) < FEW_PIXELS;
         let is_rounding = |one: &PixelReason| match one.reason {
             Reason::Rounding { pixels, .. } => !are_few || pixels <= VERY_NEAR,

@@ -83,19 +83,14 @@ fn enlargement(camera: &Camera, [nearest, middle]: [f64; 2], deepest: f64) -> f6
     if camera.projection() == Projection::Parallel {
         return 1.0;
     }
-    let mut steps =
-        (0..24).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
+    let steps = (0..24).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
     let most = 0.8 * nearest / own;
     if middle > 0.0 && middle < own {
         return steps.map(|step| 1.0 / step).find(|part| *part <= most).unwrap_or(1.0);
     }
     let [width, height] = camera.viewport();
     let wanted = 0.3 * deepest / width.max(height).max(0.5 * own);
-    let mut enlarged = 1.0;
-    while let Some(step) = steps.next().filter(|step| *step <= wanted && *step <= most) {
-        enlarged = step;
-    }
-    enlarged
+    steps.take_while(|step| *step <= wanted && *step <= most).last().unwrap_or(1.0)
 }
 
 /// Points that a coarse grid of rays hits: of planes only if there is nothing else, because a plane has no end.
