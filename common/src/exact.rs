@@ -17,6 +17,7 @@ mod sign;
 
 pub use cached_judge::CachedJudge;
 pub use cover::{EdgeSigns, EdgeValues, Side};
+pub use double::two_sum;
 pub use judge::{Coverage, Judge, SampleTest};
 pub use nearest::Comparison;
 pub use sign::Sign;

@@ -95,10 +95,10 @@ impl Real for Double {
 /// Products beyond this keep all that rounding loses: 53 digits more are far above 2⁻¹⁰⁷⁴.
 const LEAST: f64 = f64::MIN_POSITIVE / (4.0 * EPS53 * EPS53);
 
-/// A rounded sum, and what rounding lost, exactly.
+/// A rounded sum, and what rounding lost: exactly, unless the sum overflows.
 ///
 /// Knuth, "The Art of Computer Programming", volume 2, 4.2.2, theorem C.
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
     (sum, (a - (sum - of_b)) + (b - of_b))

@@ -1,6 +1,6 @@
 //! Which way a corner turns, and which way round a polygon goes: exactly.
 
-use bothways_common::exact::Sign;
+use bothways_common::exact::{Sign, two_sum};
 
 /// A corner in the plane. Both coordinates are numbers of an `f32`, so a product of two has 48 digits, none of them below
 /// 2⁻²⁹⁸, and is exact.
@@ -61,15 +61,6 @@ fn sum_sign(terms: impl Iterator<Item = f64>) -> Sign {
         }
     }
     parts.last().map_or(Sign::Zero, |&largest| Sign::of(largest))
-}
-
-/// A rounded sum, and what rounding lost, exactly.
-///
-/// Knuth, "The Art of Computer Programming", volume 2, 4.2.2, theorem C.
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let of_b = sum - a;
-    (sum, (a - (sum - of_b)) + (b - of_b))
 }
 
 #[cfg(test)]
