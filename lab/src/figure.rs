@@ -4,6 +4,7 @@ mod chart;
 mod drawing;
 mod fallback;
 mod film_page;
+mod formula;
 mod kinds;
 mod legend;
 mod marks;

@@ -35,7 +35,7 @@ Every figure is drawn from a render of the scene. It is 16:9; the same input giv
 Examples:
   bothways figure camera                              the lecture's scene, into out/figures
   bothways figure camera lecture -o camera.png        as a PNG, 1920 pixels wide
-  bothways figure grid ties --pixel 20,30             the samples around one pixel
+  bothways figure grid ties --pixel 32,31             the samples around one pixel
   bothways figure camera inside --theme light -o -    SVG to standard output, for white paper
   bothways figure reasons ties --object-rules inclusive";
 

@@ -246,9 +246,9 @@ impl Drawing {
         self.text([x, baseline], anchor, &text, style)
     }
 
-    /// Writes a label beside a point, where it meets no other text and stays in the window: as near as possible, best in
-    /// the preferred direction (across, down), with a thin line to the point if it stands far off. Where there is no room
-    /// at all, nothing is written.
+    /// Writes a label beside a point, where it meets no other text and stays in the window: near, in the preferred
+    /// direction (across, down), and on few strong lines and discs, with a thin line to the point if it stands far off.
+    /// Where there is no room at all, nothing is written.
     pub(crate) fn label(
         &mut self,
         point: [f64; 2],
@@ -257,30 +257,58 @@ impl Drawing {
         style: Style,
         halo: Option<[u8; 3]>,
     ) {
-        let mut directions: Vec<[f64; 2]> = (0..16)
-            .map(|step| std::f64::consts::TAU * f64::from(step) / 16.0)
-            .map(|angle| [angle.cos(), angle.sin()])
-            .collect();
-        let along = |direction: &[f64; 2]| direction[0] * prefer[0] + direction[1] * prefer[1];
-        directions.sort_by(|a, b| along(b).total_cmp(&along(a)));
+        const DISTANCES: [f64; 5] = [16.0, 34.0, 60.0, 95.0, 140.0];
+        /// What a label costs for each thing that it lies on, where a step farther away costs 1, and the side that is not
+        /// preferred, too.
+        const MEETS: f64 = 1.6;
         let (size, width) = (f64::from(style.size), f64::from(text::width(text, style)));
-        for distance in [16.0, 34.0, 60.0, 95.0, 140.0] {
-            for [across, down] in &directions {
+        let length = prefer[0].hypot(prefer[1]).max(f64::MIN_POSITIVE);
+        let mut best: Option<(f64, Text, [f64; 2])> = None;
+        for (step, distance) in DISTANCES.into_iter().enumerate() {
+            for turn in 0..16 {
+                let (down, across) = (std::f64::consts::TAU * f64::from(turn) / 16.0).sin_cos();
                 // The side or the corner of the text that faces the point is so far from it.
                 let left = point[0] + across * distance - 0.5 * width * (1.0 - across);
                 let baseline = point[1] + down * (distance + 0.45 * size) + 0.35 * size;
                 let label = Text { text: text.into(), left, baseline, style, halo };
-                if self.is_free(&label) {
-                    if distance > 40.0 {
-                        let end = [left + 0.5 * width * (1.0 - across), baseline - 0.35 * size];
-                        let end = [end[0], end[1] - down * 0.6 * size];
-                        self.line(&[point, end], Pen::new(style.color, 1.2).alpha(0.7));
-                    }
-                    self.items.push(Item::Text(label));
-                    return;
+                let along = (across * prefer[0] + down * prefer[1]) / length;
+                let cost = step as f64 + 0.5 * (1.0 - along);
+                let dearer = |best: &(f64, Text, [f64; 2])| cost >= best.0;
+                if best.as_ref().is_some_and(dearer) || !self.is_free(&label) {
+                    continue;
+                }
+                let cost = cost + MEETS * self.strong_items_under(&label) as f64;
+                if best.as_ref().is_none_or(|best| cost < best.0) {
+                    let facing = [left + 0.5 * width * (1.0 - across), baseline - 0.35 * size];
+                    best = Some((cost, label, [facing[0], facing[1] - down * 0.6 * size]));
                 }
             }
         }
+        let Some((_, label, facing)) = best else { return };
+        if (facing[0] - point[0]).hypot(facing[1] - point[1]) > 40.0 {
+            self.line(&[point, facing], Pen::new(style.color, 1.2).alpha(0.7));
+        }
+        self.items.push(Item::Text(label));
+    }
+
+    /// How many discs and strong lines a text lies on.
+    fn strong_items_under(&self, label: &Text) -> usize {
+        const STRONG: f64 = 2.5;
+        let [left, top, right, bottom] = label.extent();
+        let around = |by: f64| {
+            let size = [right - left + 2.0 * by, bottom - top + 2.0 * by];
+            Rectangle::new([left - by, top - by], size)
+        };
+        let is_under = |item: &&Item| match item {
+            Item::Disc { center, radius, .. } => around(*radius).holds(*center),
+            Item::Line { points, closed, pen } if pen.width >= STRONG => {
+                let closing = points.first().filter(|_| *closed);
+                let points: Vec<[f64; 2]> = points.iter().chain(closing).copied().collect();
+                !around(0.5 * pen.width).parts(&points).is_empty()
+            }
+            _ => false,
+        };
+        self.items.iter().filter(is_under).count()
     }
 
     /// Whether a text lies within the window and meets no other.

@@ -4,7 +4,7 @@ use super::drawing::{Anchor, CANVAS, Drawing, Ink, Pen};
 use super::fallback::drawable;
 use super::marks::mark;
 use super::resize::fitted;
-use super::text::{has, width};
+use super::text::has;
 use super::theme::{Role, Theme};
 use crate::orders::Order;
 use crate::wording::{count, grouped};
@@ -92,7 +92,6 @@ impl FilmPage<'_> {
         }
         self.clock(&mut page);
         self.curves(&mut page);
-        self.verdict(&mut page);
         page.drawing
     }
 
@@ -127,9 +126,16 @@ impl FilmPage<'_> {
         let theme = page.theme;
         let clock = format!("work done: {} of {}", grouped(self.clock), count(self.whole, "steps"));
         let style = theme.heading().sized(28.0).tabular();
-        page.drawing.text([RIGHT, CLOCK], Anchor::Right, &clock, style);
-        let what = "pixels with their final colour, by the work done in each order";
-        page.drawing.text([MARGIN, CLOCK], Anchor::Left, what, theme.text().of(theme.quiet()));
+        let taken = page.drawing.text([RIGHT, CLOCK], Anchor::Right, &clock, style);
+        match &self.verdict {
+            Some(verdict) => {
+                let role = if self.matches { Role::Good } else { Role::Bad };
+                let style = theme.heading().sized(32.0).of(theme.of(role));
+                let room = RIGHT - MARGIN - taken - 32.0;
+                page.drawing.fitting([MARGIN, CLOCK], Anchor::Left, verdict, style, room);
+            }
+            None => legend(page),
+        }
     }
 
     /// The finished pixels of both orders over the clock, as far as the clock is.
@@ -158,19 +164,19 @@ impl FilmPage<'_> {
             }
         }
     }
+}
 
-    fn verdict(&self, page: &mut Page) {
-        let Some(verdict) = &self.verdict else { return };
-        let theme = page.theme;
-        let role = if self.matches { Role::Good } else { Role::Bad };
-        let style = theme.title().sized(38.0).of(theme.of(role));
-        let [middle, baseline] = [0.5 * CANVAS[0], 0.5 * (CURVES[0] + CURVES[1]) + 13.0];
-        // A plate, so that no curve runs through the letters.
-        let width = f64::from(width(verdict, style)) + 48.0;
-        let plate = [middle - 0.5 * width, baseline - 44.0];
-        page.drawing.rectangle(plate, [width, 62.0], Ink::new(theme.mat()));
-        page.drawing.text([middle, baseline], Anchor::Middle, verdict, style);
-    }
+/// What the curves and the yellow outlines mean.
+fn legend(page: &mut Page) {
+    const SIDE: f64 = 18.0;
+    let style = page.theme.text().of(page.theme.quiet());
+    let curves = "pixels with their final colour, by the work done";
+    let taken = page.drawing.text([MARGIN, CLOCK], Anchor::Left, curves, style);
+    let left = MARGIN + taken + 44.0;
+    let pen = Pen::new(page.theme.of(Role::Focus), 2.5);
+    page.drawing.frame([left, CLOCK - SIDE], [SIDE; 2], pen);
+    let changed = "changed since the frame before";
+    page.drawing.text([left + SIDE + 12.0, CLOCK], Anchor::Left, changed, style);
 }
 
 #[expect(clippy::cast_precision_loss, reason = "a place on the canvas")]

@@ -10,6 +10,7 @@ mod hierarchy;
 mod image;
 mod interest;
 mod levels;
+mod one_ray;
 mod order;
 mod patch;
 mod ray;

@@ -87,15 +87,20 @@ pub(crate) fn with_image(camera: &Camera, image: [u32; 2]) -> Camera {
 
 /// The picture of a view in at most so many pixels along a side, with the form of its image.
 pub(crate) fn small_picture(view: &View, most: u32) -> RgbImage {
+    picture(&small_frame(view, most))
+}
+
+/// The rendered frame of an image that is at most so long on its longer side.
+pub(crate) fn small_frame(view: &View, most: u32) -> Frame {
     let image = view.camera.image();
     let longest = image[0].max(image[1]);
     if longest <= most {
-        return picture(&seen(view, &Options::default()));
+        return seen(view, &Options::default());
     }
     let side = |side: u32| {
         let scaled = (u64::from(side) * u64::from(most)).div_ceil(longest.into());
         u32::try_from(scaled).expect("smaller than it was").max(1)
     };
     let camera = with_image(view.camera, image.map(side));
-    picture(&seen(&View::new(view.scene, &camera), &Options::default()))
+    seen(&View::new(view.scene, &camera), &Options::default())
 }

@@ -3,6 +3,7 @@
 //! This is enough typography for labels and numbers: kerning, and figures of equal width for columns of numbers. The
 //! typeface is Inter, under the SIL Open Font License (`assets/inter`).
 
+use super::formula::Form;
 use skrifa::charmap::Charmap;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::metrics::GlyphMetrics;
@@ -52,7 +53,7 @@ pub(super) fn has(letter: char) -> bool {
 
 /// The width of a text, in pixels.
 pub(super) fn width(text: &str, style: Style) -> f32 {
-    style.weight.font().set(text, style.figures).width * style.weight.font().scale(style.size)
+    set(text, style).width * scale(style)
 }
 
 /// Draws a text from `x` to the right; its letters stand on `baseline`.
@@ -74,14 +75,17 @@ pub(super) fn scale(style: Style) -> f32 {
 
 /// The outlines of a text in units of the font; `y` points up. `None` if there is nothing to see.
 pub(super) fn path(text: &str, style: Style) -> Option<Path> {
-    let font = style.weight.font();
-    font.outline(&font.set(text, style.figures))
+    let mut pen = Pen { path: PathBuilder::new(), origin: [0.0; 2], size: 1.0 };
+    for Glyph { weight, number, x, y, size } in glyphs(text, style) {
+        pen = Pen { origin: [x, y], size, ..pen };
+        weight.font().draw_glyph(GlyphId16::new(number), &mut pen);
+    }
+    pen.path.finish()
 }
 
-/// The glyphs of a text, each with its distance from the beginning in units of the font.
-pub(super) fn glyphs(text: &str, style: Style) -> Vec<(u16, f32)> {
-    let line = style.weight.font().set(text, style.figures);
-    line.glyphs.into_iter().map(|(glyph, x)| (glyph.to_u16(), x)).collect()
+/// The glyphs of a text, from left to right.
+pub(super) fn glyphs(text: &str, style: Style) -> Vec<Glyph> {
+    set(text, style).glyphs
 }
 
 /// The outline of a glyph in units of the font, as SVG writes a path; empty if there is nothing to see.
@@ -138,10 +142,42 @@ impl<K: Copy + Eq + Hash, V: Copy> Found<K, V> {
     }
 }
 
-/// A line of glyphs in font units, each glyph with its distance from the beginning of the line.
+/// A glyph of a line, in font units; `y` points up.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Glyph {
+    pub(super) weight: Weight,
+    pub(super) number: u16,
+    /// The distance from the beginning of the line, and above it.
+    pub(super) x: f32,
+    pub(super) y: f32,
+    /// Its size, in that of the line.
+    pub(super) size: f32,
+}
+
+/// A line of glyphs in font units.
 struct Line {
-    glyphs: Vec<(GlyphId16, f32)>,
+    glyphs: Vec<Glyph>,
     width: f32,
+}
+
+/// Sets a text in a line.
+fn set(text: &str, style: Style) -> Line {
+    let (mut glyphs, mut width) = (Vec::new(), 0.0);
+    let mut previous = None;
+    for letter in text.chars() {
+        let form = Form::of(letter, style.weight);
+        let (font, [y, size]) = (form.weight.font(), form.place());
+        let (glyph, advance) = font.advance(form.letter, style.figures);
+        // Letters of two forms keep their own distance.
+        if let Some((_, before)) = previous.filter(|(before, _): &(Form, _)| before.is_like(form)) {
+            width += size * font.kern([before, glyph]);
+        }
+        let number = glyph.to_u16();
+        glyphs.push(Glyph { weight: form.weight, number, x: width, y, size });
+        width += size * advance;
+        previous = Some((form, glyph));
+    }
+    Line { glyphs, width }
 }
 
 impl Weight {
@@ -181,23 +217,12 @@ impl Font {
         size / f32::from(self.units_per_em)
     }
 
-    fn set(&self, text: &str, figures: Figures) -> Line {
-        let (mut glyphs, mut width) = (Vec::new(), 0.0);
-        let mut previous = None;
-        for letter in text.chars() {
-            let (glyph, advance) = self.found_glyphs.get((letter, figures), || {
-                let glyph = self.glyph(letter, figures);
-                (glyph, self.metrics.advance_width(glyph.into()).unwrap_or(0.0))
-            });
-            width += previous.map_or(0.0, |previous| {
-                let pair = [previous, glyph];
-                self.found_kerning.get(pair, || self.kern(pair))
-            });
-            glyphs.push((glyph, width));
-            width += advance;
-            previous = Some(glyph);
-        }
-        Line { glyphs, width }
+    /// The glyph of a letter, and its width.
+    fn advance(&self, letter: char, figures: Figures) -> (GlyphId16, f32) {
+        self.found_glyphs.get((letter, figures), || {
+            let glyph = self.glyph(letter, figures);
+            (glyph, self.metrics.advance_width(glyph.into()).unwrap_or(0.0))
+        })
     }
 
     /// The glyph of a letter, or of a figure in the requested form.
@@ -225,7 +250,11 @@ impl Font {
     }
 
     /// The extra distance between two glyphs; a negative distance moves the glyphs nearer.
-    fn kern(&self, [left, right]: [GlyphId16; 2]) -> f32 {
+    fn kern(&self, pair: [GlyphId16; 2]) -> f32 {
+        self.found_kerning.get(pair, || self.find_kerning(pair))
+    }
+
+    fn find_kerning(&self, [left, right]: [GlyphId16; 2]) -> f32 {
         let adjustment = self.kerning.iter().find_map(|table| match table {
             PairPos::Format1(table) => {
                 let place = table.coverage().ok()?.get(left)?;
@@ -242,15 +271,6 @@ impl Font {
             _ => None,
         });
         adjustment.map_or(0.0, f32::from)
-    }
-
-    fn outline(&self, line: &Line) -> Option<Path> {
-        let mut pen = Pen { path: PathBuilder::new(), x: 0.0 };
-        for &(glyph, x) in &line.glyphs {
-            pen.x = x;
-            self.draw_glyph(glyph, &mut pen);
-        }
-        pen.path.finish()
     }
 
     fn draw_glyph(&self, glyph: GlyphId16, pen: &mut impl OutlinePen) {
@@ -298,24 +318,36 @@ fn lookup_indices(features: &FeatureList, name: Tag) -> Result<Vec<usize>, ReadE
 /// Draws glyphs one after another into one path.
 struct Pen {
     path: PathBuilder,
-    x: f32,
+    /// Where the glyph stands, and its size.
+    origin: [f32; 2],
+    size: f32,
+}
+
+impl Pen {
+    fn at(&self, x: f32, y: f32) -> [f32; 2] {
+        [self.origin[0] + self.size * x, self.origin[1] + self.size * y]
+    }
 }
 
 impl OutlinePen for Pen {
     fn move_to(&mut self, x: f32, y: f32) {
-        self.path.move_to(self.x + x, y);
+        let [x, y] = self.at(x, y);
+        self.path.move_to(x, y);
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
-        self.path.line_to(self.x + x, y);
+        let [x, y] = self.at(x, y);
+        self.path.line_to(x, y);
     }
 
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.path.quad_to(self.x + x1, y1, self.x + x, y);
+        let ([x1, y1], [x, y]) = (self.at(x1, y1), self.at(x, y));
+        self.path.quad_to(x1, y1, x, y);
     }
 
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.path.cubic_to(self.x + x1, y1, self.x + x2, y2, self.x + x, y);
+        let ([x1, y1], [x2, y2], [x, y]) = (self.at(x1, y1), self.at(x2, y2), self.at(x, y));
+        self.path.cubic_to(x1, y1, x2, y2, x, y);
     }
 
     fn close(&mut self) {
@@ -361,6 +393,7 @@ impl OutlinePen for SvgPen {
 
 #[cfg(test)]
 mod tests {
+    use super::super::formula::subscript;
     use super::*;
 
     const STYLE: Style =
@@ -383,6 +416,18 @@ mod tests {
             assert!(width("1", style) < 0.85 * width("0", style));
             assert!(width("274,561", style) < width("274,561", Style { weight, ..STYLE }));
         }
+    }
+
+    #[test]
+    fn a_vector_is_bold_and_a_subscript_small_and_low() {
+        let style = Style { weight: Weight::SemiBold, ..STYLE };
+        assert_eq!(width("𝐝", STYLE), width("d", style));
+        assert_eq!(width("𝐝", style), width("d", style));
+        let name = format!("E{}", subscript("ab"));
+        let [first, below, last] = glyphs(&name, STYLE).try_into().unwrap();
+        assert!(first.y == 0.0 && first.size == 1.0);
+        assert!(below.y < 0.0 && below.size < 1.0 && last.x > below.x);
+        assert!(width(&name, STYLE) < width("Eab", STYLE));
     }
 
     #[test]

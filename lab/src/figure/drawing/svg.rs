@@ -5,6 +5,7 @@
 
 use super::canvas::CANVAS;
 use super::items::{Drawing, Ink, Item, Pen, Text};
+use crate::figure::formula::plain;
 use crate::figure::text::{self, Weight};
 use base64::Engine;
 use image::{ImageFormat, RgbImage};
@@ -51,7 +52,7 @@ fn letters(drawing: &Drawing) -> String {
     for item in &drawing.items {
         if let Item::Text(text) = item {
             let glyphs = text::glyphs(&text.text, text.style);
-            used.extend(glyphs.into_iter().map(|(glyph, _)| (text.style.weight, glyph)));
+            used.extend(glyphs.into_iter().map(|glyph| (glyph.weight, glyph.number)));
         }
     }
     let mut defined = String::new();
@@ -76,12 +77,12 @@ fn line(item: &Text) -> String {
     let Text { text: letters, left, baseline, style, halo } = item;
     let scale = f64::from(text::scale(*style));
     let mut used = String::new();
-    for (glyph, x) in text::glyphs(letters, *style) {
-        if text::outline(style.weight, glyph).is_empty() {
+    for glyph in text::glyphs(letters, *style) {
+        if text::outline(glyph.weight, glyph.number).is_empty() {
             continue;
         }
-        let place = if x == 0.0 { String::new() } else { format!(" x=\"{}\"", number(x.into())) };
-        let _ = write!(used, "<use href=\"#{}\"{place}/>", name(style.weight, glyph));
+        let letter = name(glyph.weight, glyph.number);
+        let _ = write!(used, "<use href=\"#{letter}\"{}/>", place_of(glyph));
     }
     let place = format!(
         "transform=\"matrix({scale:.5} 0 0 -{scale:.5} {} {})\"",
@@ -101,9 +102,19 @@ fn line(item: &Text) -> String {
         svg,
         "<g {place} fill=\"{}\" role=\"img\" aria-label=\"{}\">{used}</g>",
         hex(style.color),
-        escaped(letters)
+        escaped(&plain(letters))
     );
     svg
+}
+
+/// Where a glyph stands in its line, as an attribute.
+fn place_of(text::Glyph { x, y, size, .. }: text::Glyph) -> String {
+    let [x, y] = [x, y].map(|part| number(part.into()));
+    match (size, &*x, &*y) {
+        (1.0, "0", "0") => String::new(),
+        (1.0, _, "0") => format!(" x=\"{x}\""),
+        _ => format!(" transform=\"matrix({size} 0 0 {size} {x} {y})\""),
+    }
 }
 
 fn image(picture: &RgbImage, [corner, right, below]: &super::Corners, alpha: f64) -> String {

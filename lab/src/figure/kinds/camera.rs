@@ -30,7 +30,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         ),
         Projection::Parallel => (
             "The camera: parallel projection",
-            "All viewing rays have the direction −w; each starts where its pixel lies in the plane of the eye.",
+            "All viewing rays have the direction −𝐰; each starts where its pixel lies in the plane of the eye.",
         ),
     };
     let mut sheet = Sheet::new(subject, title, point);
@@ -82,14 +82,14 @@ fn formulas(sheet: &mut Sheet, subject: &Subject, ray: &ViewingRay) {
     let origin = eye(camera.eye());
     match camera.projection() {
         Projection::Perspective => lines.extend([
-            (format!("origin p = eye = {origin}"), formula),
-            (format!("direction x u + y v − d w = {direction}"), formula),
+            (format!("origin 𝐩 = eye = {origin}"), formula),
+            (format!("direction 𝐝 = x 𝐮 + y 𝐯 − d 𝐰 = {direction}"), formula),
         ]),
         Projection::Parallel => {
             let moved = vector(camera.eye().as_dvec3() + ray.ray().origin);
             lines.extend([
-                (format!("origin p = eye + x u + y v = {moved}"), formula),
-                (format!("direction −w = {direction}"), formula),
+                (format!("origin 𝐩 = eye + x 𝐮 + y 𝐯 = {moved}"), formula),
+                (format!("direction 𝐝 = −𝐰 = {direction}"), formula),
             ]);
         }
     }

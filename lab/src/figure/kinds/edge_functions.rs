@@ -1,6 +1,6 @@
 //! The three edge functions of a triangle as half-planes, and their intersection.
 
-use super::grid::edges;
+use super::grid::{edge_function, edges};
 use crate::common::glam::DVec3;
 use crate::common::{Frame, Primitive, Projection, Ray, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
@@ -12,6 +12,9 @@ use image::{Rgb, RgbImage};
 use std::collections::BTreeMap;
 
 const PANEL_TOP: f64 = TOP + 46.0;
+/// The edge functions of ab, bc and ca.
+const DEFINITIONS: [&str; 3] =
+    ["det(𝐚 − 𝐩, 𝐛 − 𝐩, 𝐝)", "det(𝐛 − 𝐩, 𝐜 − 𝐩, 𝐝)", "det(𝐜 − 𝐩, 𝐚 − 𝐩, 𝐝)"];
 /// The most samples along a side at which the functions are evaluated.
 const MOST: usize = 142;
 /// How many steps a ramp has between 0 and its greatest value.
@@ -36,7 +39,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let panels = Panels::new(&extent);
     for (number, (color, name)) in edges(theme).into_iter().enumerate() {
         let corner = panels.corner(number);
-        sheet.heading(corner, panels.room[0], &format!("E_{name}"), "");
+        sheet.heading(corner, panels.room[0], &edge_function(name), "");
         let place = extent.placed(corner, panels.room);
         sheet.drawing.picture(values.ramp(number, theme), place.corner, place.size);
         sheet.drawing.window(Some((place.corner, place.size)));
@@ -45,8 +48,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         sheet.drawing.window(None);
         outline(&mut sheet, view, &corners, &place, number);
         sheet.border(place.corner, place.size);
-        let [from, to] = [&name[..1], &name[1..]];
-        let formula = format!("E_{name} = det({from} − p, {to} − p, d)");
+        let formula = format!("{} = {}", edge_function(name), DEFINITIONS[number]);
         let ([x, y], room) = panels.words(&place);
         sheet.drawing.fitting([x, y], Anchor::Left, &formula, theme.text(), room);
     }
@@ -334,7 +336,7 @@ fn outline(sheet: &mut Sheet, view: &View, corners: &[DVec3; 3], place: &Panel, 
         sheet.drawing.line(&line, Pen::new(theme.bright(), 1.8).dashed(3.0, 6.0));
     }
     for corner in [edge, (edge + 1) % 3] {
-        let name = ["a", "b", "c"][corner];
+        let name = ["𝐚", "𝐛", "𝐜"][corner];
         let Some(at) = projector.place(corners[corner]) else { continue };
         sheet.drawing.disc(place.of(at), 6.0, Ink::new(theme.bright()));
         sheet.drawing.label(
@@ -368,7 +370,7 @@ fn legend(sheet: &mut Sheet, y: f64) {
         "negative, hatched: outside of this edge      positive: inside      the thick line: 0";
     let x = left + steps * width + 24.0;
     sheet.drawing.fitting([x, y + 20.0], Anchor::Left, words, theme.label(), RIGHT - x);
-    let note = "r(t) = p + t d is the ray through a sample. Here each function has the sign that makes the inside positive. \
+    let note = "𝐫(t) = 𝐩 + t 𝐝 is the ray through a sample. Here each function has the sign that makes the inside positive. \
                 On the raster all three are affine: their level lines are straight and evenly spaced.";
     sheet.drawing.fitting([left, y + 60.0], Anchor::Left, note, theme.label(), RIGHT - left);
 }

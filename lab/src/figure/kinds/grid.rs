@@ -6,6 +6,7 @@ use super::patch::Patch;
 use crate::common::exact::EdgeSigns;
 use crate::common::{Frame, Primitive, Projection, Sign, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::figure::formula::subscript;
 use crate::figure::project::Projector;
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject};
@@ -23,9 +24,10 @@ const SIZE: [usize; 2] = [8, 12];
 pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let view = &subject.view;
     let frame = subject.frame();
+    let patch = |pixel| Patch::around(pixel, view.camera.image(), SIZE, ROOM);
     let (pixel, id) = match subject.pixel() {
         Some(pixel) => (pixel, at_or_near(&frame, pixel)),
-        None => match best_border(view, &frame) {
+        None => match best_border(view, &frame, patch) {
             Some((pixel, id)) => (pixel, Some(id)),
             // One primitive fills the picture, or nothing does.
             None => {
@@ -40,14 +42,14 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let is_triangle = matches!(primitive, Primitive::Triangle(_));
     let parallel = view.camera.projection() == Projection::Parallel;
     let point = if is_triangle && parallel {
-        "A triangle covers a sample if its three edge functions have the sign of its facing F there, and t > 0; 0 is a tie."
+        "A triangle covers a sample where its three edge functions are positive, and t > 0. On its border one is 0: a tie."
     } else if is_triangle {
-        "A triangle covers a sample if its three edge functions have the sign of its facing F there; 0 is a tie."
+        "A triangle covers a sample where its three edge functions are positive. On its border one is 0: a tie."
     } else {
         "A sample is covered if its viewing ray hits the primitive: what lies between samples is never asked."
     };
     let mut sheet = Sheet::new(subject, "Which samples does it cover?", point);
-    let patch = Patch::around(pixel, view.camera.image(), SIZE, ROOM);
+    let patch = patch(pixel);
     let cells = cells(view, &patch, &primitive);
     draw_cells(&mut sheet, &patch, &cells, &frame);
     draw_outlines(&mut sheet, view, &patch, &frame, id);
@@ -73,6 +75,11 @@ struct Cell {
 impl Cell {
     fn is_tie(&self) -> bool {
         self.edges.is_some_and(|edges| on_boundary(&edges))
+    }
+
+    /// Whether it lies on the line of an edge, but not on the edge.
+    fn is_beyond(&self) -> bool {
+        !self.is_tie() && self.edges.is_some_and(|edges| edges.at_sample.contains(&Sign::Zero))
     }
 }
 
@@ -166,9 +173,19 @@ fn name_edges(sheet: &mut Sheet, view: &View, patch: &Patch, id: u64) {
     sheet.drawing.window(None);
 }
 
+/// The name of an edge's function.
+pub(super) fn edge_function(edge: &str) -> String {
+    format!("E{}", subscript(edge))
+}
+
 /// The colours and names of the edges. Their signs stand in this order, too, so that no colour is needed.
 pub(super) fn edges(theme: Theme) -> [([u8; 3], &'static str); 3] {
     [(theme.of(Role::Object), "ab"), (theme.of(Role::Image), "bc"), (theme.of(Role::Camera), "ca")]
+}
+
+/// The sign of an edge function that is turned so that the inside is positive.
+fn inward(function: Sign, facing: Sign) -> Sign {
+    if facing == Sign::Negative { -function } else { function }
 }
 
 fn sign(sign: Sign) -> &'static str {
@@ -213,7 +230,7 @@ fn draw_samples(sheet: &mut Sheet, patch: &Patch, cells: &[Cell]) {
             drawing.text_with_halo(
                 [x, baseline],
                 Anchor::Middle,
-                sign(at),
+                sign(inward(at, signs.facing)),
                 strong,
                 Some(theme.mat()),
             );
@@ -250,20 +267,20 @@ fn words(sheet: &mut Sheet, subject: &Subject, patch: &Patch, cells: &[Cell], id
         return;
     };
     y += 10.0;
-    let seen = match facing {
-        Sign::Negative => "corners are seen counter-clockwise",
-        Sign::Positive => "corners are seen clockwise",
-        Sign::Zero => "seen exactly edge-on: covers nothing",
+    let [ab, bc, ca] = ["ab", "bc", "ca"].map(edge_function);
+    let below =
+        format!("Below each sample: the signs of {ab}, {bc} and {ca} there, in this order.");
+    y = sheet.paragraph([WORDS, y], width, 34.0, &below, text);
+    let turned = match facing {
+        Sign::Negative => {
+            "The facing F is negative: the corners are seen counter-clockwise. The signs are turned, so that + is inside."
+        }
+        Sign::Positive => {
+            "The facing F is positive: the corners are seen clockwise, and + is inside."
+        }
+        Sign::Zero => "The facing F is 0: it is seen exactly edge-on, and covers nothing.",
     };
-    let facing = format!("Facing F = {}: its {seen}.", sign(facing));
-    y = sheet.paragraph([WORDS, y], width, 34.0, &facing, text);
-    y = sheet.paragraph(
-        [WORDS, y],
-        width,
-        34.0,
-        "Below each sample: the signs of E_ab, E_bc and E_ca there, in this order.",
-        text,
-    );
+    y = sheet.paragraph([WORDS, y], width, 34.0, turned, text);
     y += 14.0;
     ties(sheet, [WORDS, y], cells);
 }
@@ -312,6 +329,11 @@ fn legend(sheet: &mut Sheet, [x, y]: [f64; 2], cells: &[Cell]) -> f64 {
             "a tie: exactly on an edge",
         );
     }
+    if cells.iter().any(Cell::is_beyond) {
+        sheet.drawing.text([x + 14.0, y], Anchor::Middle, "0", theme.text().semi_bold());
+        let words = "without a frame: on an edge's line, beyond its end";
+        y = sheet.paragraph([x + 44.0, y], RIGHT - x - 44.0, 34.0, words, theme.text()) + 2.0;
+    }
     y
 }
 
@@ -332,18 +354,28 @@ fn ties(sheet: &mut Sheet, [x, y]: [f64; 2], cells: &[Cell]) {
     let rule = "The sample is moved a little to the right, and less down (the arrow). The side that it comes to \
                 decides: left and top edges own it.";
     y = sheet.paragraph([x, y], width, 34.0, rule, theme.text());
-    let here = format!("{} here; {owned} of them covered.", count(ties.len() as u64, "ties"));
+    let lost = ties.len() - owned;
+    let here = format!("{} here: {owned} covered, {lost} not.", count(ties.len() as u64, "ties"));
     y = sheet.paragraph([x, y], width, 34.0, &here, theme.text());
-    let Some((cell, edges)) = ties.iter().find_map(|cell| Some((cell, cell.edges?))) else {
-        return;
-    };
-    let names = ["E_ab", "E_bc", "E_ca"];
-    let decided: Vec<String> = (0..3)
-        .filter(|edge| edges.at_sample[*edge] == Sign::Zero)
-        .map(|edge| format!("{} = 0 becomes {}", names[edge], sign(edges.decided[edge])))
+    for covered in [true, false] {
+        let example = ties.iter().find(|cell| cell.covered == covered);
+        if let Some(example) = example.and_then(|cell| decision(cell)) {
+            y = sheet.paragraph([x, y], width, 34.0, &example, theme.text());
+        }
+    }
+}
+
+/// How the tie rule decided a tie, in a sentence.
+fn decision(cell: &Cell) -> Option<String> {
+    let edges = cell.edges?;
+    let decided: Vec<String> = (["ab", "bc", "ca"].into_iter().enumerate())
+        .filter(|(edge, _)| edges.at_sample[*edge] == Sign::Zero)
+        .map(|(edge, name)| {
+            let nudged = sign(inward(edges.decided[edge], edges.facing));
+            format!("{} = 0 becomes {nudged}", edge_function(name))
+        })
         .collect();
     let verdict = if cell.covered { "covered" } else { "not covered" };
     let [row, column] = cell.pixel;
-    let example = format!("Pixel ({row}, {column}): {}, so it is {verdict}.", decided.join(", "));
-    sheet.paragraph([x, y], width, 34.0, &example, theme.text());
+    Some(format!("Pixel ({row}, {column}): {}: {verdict}.", decided.join(", ")))
 }

@@ -1,140 +1,184 @@
-//! How each order finds quickly what matters: the boxes of the ray tracer's hierarchy by level, the rasterizer's
-//! clusters and tiles, over the picture.
+//! How each order finds quickly what matters: the first boxes of the ray tracer's hierarchy and those that one ray tests, the
+//! rasterizer's clusters and tiles.
 
-use crate::common::glam::Vec3;
+use super::one_ray::{Path, telling};
+use crate::common::{Camera, Frame, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::figure::marks::crosshair;
 use crate::figure::project::{Projector, corners_of_box};
 use crate::figure::sheet::{MARGIN, Sheet, TOP};
-use crate::figure::subject::{FigureError, Subject, small_picture};
-use crate::figure::theme::{Role, faded};
+use crate::figure::subject::{FigureError, Subject, small_frame};
+use crate::figure::theme::{Role, Theme, faded, mixed};
+use crate::picture::{color_of_id, picture};
 use crate::wording::{count, grouped};
 use crate::{rasterize, raytrace};
-use image::RgbImage;
+use image::{Rgb, RgbImage};
 use raytrace::fast::HierarchyBox;
+use std::collections::HashMap;
 
 const PANEL: [f64; 2] = [560.0, 330.0];
 const TOPS: [f64; 2] = [TOP + 44.0, TOP + 440.0];
 const STEP: f64 = 608.0;
-/// The most boxes of which a panel shows all edges, and the most that it shows at all.
+/// The most boxes of which a panel shows all edges.
 const WHOLE: usize = 160;
-const MOST: usize = 1200;
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let view = &subject.view;
     let theme = subject.theme;
-    let boxes = raytrace::fast::prepare(view.scene).boxes();
+    let hierarchy = raytrace::fast::prepare(view.scene);
+    let boxes = hierarchy.boxes();
     let prepared = rasterize::fast::prepare(view.scene);
-    let clusters = prepared.cluster_boxes(view.scene);
+    let clusters = prepared.cluster_boxes(view.scene).len();
     if boxes.is_empty() {
         return Err(FigureError::new(
             "the scene has planes alone, and nothing bounds a plane; draw another scene",
         ));
     }
+    let pixel = subject.pixel().map_or_else(|| telling(view), Ok)?;
+    let path = Path::of(view, &hierarchy, pixel);
     let point = "Image order asks a box before what is in it; object order asks a cluster before its triangles.";
     let mut sheet = Sheet::new(subject, "Boxes, so that most is never looked at", point);
-    let picture = faded(&small_picture(view, 1120), theme, 0.4);
-    let image = Role::Image;
-    for (column, (name, level)) in levels(&boxes).into_iter().enumerate() {
-        let of_level: Vec<[Vec3; 2]> =
-            boxes.iter().filter(|one| level.holds(one)).map(|one| [one.low, one.high]).collect();
-        let corner = [MARGIN + column as f64 * STEP, TOPS[0]];
-        panel(
-            &mut sheet,
-            subject,
-            &picture,
-            corner,
-            (&format!("image order: {name}"), "boxes", image),
-            &of_level,
-        );
+    let frame = small_frame(view, 1120);
+    let bright = picture(&frame);
+    let dim = faded(&bright, theme, 0.4);
+    let deepest = boxes.iter().map(|one| one.level).max().unwrap_or(0);
+    let levels = 0..=deepest.min(1);
+    for level in levels.clone() {
+        let here: Vec<&HierarchyBox> = boxes.iter().filter(|one| one.level == level).collect();
+        let heading =
+            (format!("image order: level {}", level + 1), count(here.len() as u64, "boxes"));
+        let panel = Panel::new(&mut sheet, subject, &dim, at(level, 0), &heading);
+        panel.boxes(&mut sheet, &here);
     }
-    let of_clusters: Vec<[Vec3; 2]> = clusters.iter().map(|one| [one.low, one.high]).collect();
-    let corner = [MARGIN, TOPS[1]];
-    let name = "object order: clusters";
-    panel(&mut sheet, subject, &picture, corner, (name, "clusters", Role::Object), &of_clusters);
-    tiles(&mut sheet, subject, &picture, prepared.tile(), [MARGIN + STEP, TOPS[1]]);
-    numbers(&mut sheet, subject, &boxes, clusters.len(), [MARGIN + 2.0 * STEP, TOPS[1]]);
+    one_ray(&mut sheet, subject, (&dim, at(levels.count(), 0)), (&boxes, &path, pixel));
+    let of_pixels = mosaic(&prepared, view, &frame, &bright, theme);
+    let heading = ("object order: clusters".to_owned(), count(clusters as u64, "clusters"));
+    Panel::new(&mut sheet, subject, &of_pixels, at(0, 1), &heading);
+    tiles(&mut sheet, subject, &dim, prepared.tile(), at(1, 1));
+    numbers(&mut sheet, subject, (&boxes, &path), clusters, at(2, 1));
     Ok(sheet.drawing)
 }
 
-/// Which boxes a panel shows.
-#[derive(Clone, Copy, Debug)]
-enum Level {
-    At(usize),
-    Leaves,
+/// The corner of a panel.
+fn at(column: usize, row: usize) -> [f64; 2] {
+    [MARGIN + column as f64 * STEP, TOPS[row]]
 }
 
-impl Level {
-    fn holds(self, one: &HierarchyBox) -> bool {
-        match self {
-            Level::At(level) => one.level == level,
-            Level::Leaves => one.primitives.is_some(),
+/// A panel with the picture: where a place on the raster lies on the canvas.
+struct Panel<'a> {
+    camera: &'a Camera,
+    view: View<'a>,
+    corner: [f64; 2],
+    size: [f64; 2],
+}
+
+impl<'a> Panel<'a> {
+    fn new(
+        sheet: &mut Sheet,
+        subject: &Subject<'a>,
+        picture: &RgbImage,
+        corner: [f64; 2],
+        (name, note): &(String, String),
+    ) -> Panel<'a> {
+        let size = sheet.picture(picture.clone(), corner, PANEL);
+        sheet.heading(corner, size[0].max(400.0), name, note);
+        Panel { camera: subject.view.camera, view: subject.view, corner, size }
+    }
+
+    fn place(&self, [column, row]: [f64; 2]) -> [f64; 2] {
+        let [width, height] = self.camera.image().map(f64::from);
+        let [x, y] = self.corner;
+        [x + column / width * self.size[0], y + row / height * self.size[1]]
+    }
+
+    /// Draws the edges of boxes; of many, the rectangle around each on the raster.
+    fn boxes(&self, sheet: &mut Sheet, boxes: &[&HierarchyBox]) {
+        let few = boxes.len() <= WHOLE;
+        let color = sheet.theme.of(Role::Image);
+        let pen =
+            if few { Pen::new(color, 1.8).alpha(0.95) } else { Pen::new(color, 1.0).alpha(0.7) };
+        for one in boxes {
+            self.one_box(sheet, one, pen, few);
         }
     }
-}
 
-/// The first level, one in the middle, and the leaves: as far as they are different.
-fn levels(boxes: &[HierarchyBox]) -> Vec<(String, Level)> {
-    let deepest = boxes.iter().map(|one| one.level).max().unwrap_or(0);
-    let name = |level: usize| format!("level {}", level + 1);
-    let mut levels = Vec::new();
-    if deepest >= 1 {
-        levels.push((name(0), Level::At(0)));
-    }
-    if deepest >= 2 {
-        levels.push((name(deepest / 2), Level::At(deepest / 2)));
-    }
-    levels.push(("leaves".into(), Level::Leaves));
-    levels
-}
-
-fn panel(
-    sheet: &mut Sheet,
-    subject: &Subject,
-    picture: &RgbImage,
-    corner: [f64; 2],
-    (name, things, role): (&str, &str, Role),
-    boxes: &[[Vec3; 2]],
-) {
-    let theme = sheet.theme;
-    let size = sheet.picture(picture.clone(), corner, PANEL);
-    let every = boxes.len().div_ceil(MOST).max(1);
-    let note = match every {
-        1 => count(boxes.len() as u64, things),
-        every => format!("{}, 1 in {every} drawn", grouped(boxes.len() as u64)),
-    };
-    sheet.heading(corner, size[0].max(400.0), name, &note);
-    let projector = Projector { camera: subject.view.camera };
-    let [width, height] = subject.view.camera.image().map(f64::from);
-    let place = |[column, row]: [f64; 2]| {
-        [corner[0] + column / width * size[0], corner[1] + row / height * size[1]]
-    };
-    sheet.drawing.window(Some((corner, size)));
-    let few = boxes.len() <= WHOLE;
-    let pen =
-        Pen::new(theme.of(role), if few { 1.8 } else { 1.0 }).alpha(if few { 0.95 } else { 0.7 });
-    for bounds in boxes.iter().step_by(every) {
-        let corners = corners_of_box(&subject.view, *bounds);
+    fn one_box(&self, sheet: &mut Sheet, one: &HierarchyBox, pen: Pen, edges: bool) {
+        sheet.drawing.window(Some((self.corner, self.size)));
+        let projector = Projector { camera: self.camera };
+        let corners = corners_of_box(&self.view, [one.low, one.high]);
         let seen: Option<Vec<[f64; 2]>> =
             corners.iter().map(|corner| projector.place(*corner)).collect();
         // A box that reaches behind the eye has no rectangle around it: its edges are drawn.
-        let seen = seen.filter(|_| !few);
-        let Some(seen) = seen else {
+        if let Some(seen) = seen.filter(|_| !edges) {
+            let end = |axis: usize, pick: fn(f64, f64) -> f64| {
+                seen.iter().map(|at| at[axis]).reduce(pick).unwrap_or(0.0)
+            };
+            let (low, high) =
+                ([end(0, f64::min), end(1, f64::min)], [end(0, f64::max), end(1, f64::max)]);
+            let around = [low, [high[0], low[1]], high, [low[0], high[1]]];
+            sheet.drawing.closed_line(&around.map(|at| self.place(at)), pen);
+        } else {
             for edge in projector.edges_of_box(&corners) {
-                let edge: Vec<[f64; 2]> = edge.into_iter().map(place).collect();
+                let edge: Vec<[f64; 2]> = edge.into_iter().map(|at| self.place(at)).collect();
                 sheet.drawing.line(&edge, pen);
             }
-            continue;
-        };
-        // Of many boxes, the rectangle around each on the raster.
-        let end = |axis: usize, pick: fn(f64, f64) -> f64| {
-            seen.iter().map(|at| at[axis]).reduce(pick).unwrap_or(0.0)
-        };
-        let (low, high) =
-            ([end(0, f64::min), end(1, f64::min)], [end(0, f64::max), end(1, f64::max)]);
-        let around = [low, [high[0], low[1]], high, [low[0], high[1]]].map(place);
-        sheet.drawing.closed_line(&around, pen);
+        }
+        sheet.drawing.window(None);
     }
+}
+
+/// The boxes that the ray of one pixel tests: those that it hits, and, faint, those that it misses.
+fn one_ray(
+    sheet: &mut Sheet,
+    subject: &Subject,
+    (dim, corner): (&RgbImage, [f64; 2]),
+    (boxes, path, [i, j]): (&[HierarchyBox], &Path, [u32; 2]),
+) {
+    let theme = sheet.theme;
+    let note =
+        format!("{} of {} boxes", grouped(path.opened.len() as u64), grouped(boxes.len() as u64));
+    let heading = ("image order: one ray".to_owned(), note);
+    let panel = Panel::new(sheet, subject, dim, corner, &heading);
+    let by_number: HashMap<u32, &HierarchyBox> =
+        boxes.iter().map(|one| (one.number, one)).collect();
+    for is_hit in [false, true] {
+        let pen = if is_hit {
+            Pen::new(theme.of(Role::Image), 2.2)
+        } else {
+            Pen::new(theme.quiet(), 1.2).alpha(0.8)
+        };
+        for (number, _) in path.opened.iter().filter(|(_, hit)| *hit == is_hit) {
+            if let Some(one) = by_number.get(number) {
+                panel.one_box(sheet, one, pen, true);
+            }
+        }
+    }
+    sheet.drawing.window(Some((panel.corner, panel.size)));
+    crosshair(&mut sheet.drawing, panel.place([f64::from(j) + 0.5, f64::from(i) + 0.5]), theme);
     sheet.drawing.window(None);
+}
+
+/// The picture with each pixel in the colour of the cluster that it shows. What is in no cluster is faded.
+fn mosaic(
+    prepared: &rasterize::fast::Prepared,
+    view: &View,
+    frame: &Frame,
+    picture: &RgbImage,
+    theme: Theme,
+) -> RgbImage {
+    let mut ids: Vec<u64> = frame.ids().iter().flatten().collect();
+    ids.sort_unstable();
+    ids.dedup();
+    let clusters = prepared.clusters_of(view.scene, &ids);
+    let cluster_of: HashMap<u64, usize> =
+        ids.into_iter().zip(clusters).filter_map(|(id, cluster)| Some((id, cluster?))).collect();
+    RgbImage::from_fn(picture.width(), picture.height(), |x, y| {
+        let shown = frame.id(y as usize, x as usize).and_then(|id| cluster_of.get(&id));
+        Rgb(match shown {
+            Some(cluster) => mixed(theme.mat(), color_of_id(Some(*cluster as u64)), 0.85),
+            None => mixed(theme.mat(), picture.get_pixel(x, y).0, 0.4),
+        })
+    })
 }
 
 /// The tiles of the rasterizer: each thread draws one at a time.
@@ -166,7 +210,7 @@ fn tiles(
 fn numbers(
     sheet: &mut Sheet,
     subject: &Subject,
-    boxes: &[HierarchyBox],
+    (boxes, path): (&[HierarchyBox], &Path),
     clusters: usize,
     [x, y]: [f64; 2],
 ) {
@@ -179,15 +223,18 @@ fn numbers(
         let here = boxes.iter().filter(|one| one.level == level).count();
         rows.push((format!("boxes of level {}", level + 1), grouped(here as u64)));
     }
-    if rows.len() > 5 {
-        let more = rows.len() - 5;
-        rows.truncate(5);
+    if rows.len() > 4 {
+        let more = rows.len() - 3;
+        rows.truncate(3);
         rows.push((format!("and {}", count(more as u64, "more levels")), String::new()));
     }
+    let hit = path.opened.iter().filter(|(_, is_hit)| *is_hit).count();
     rows.push(("leaves".into(), grouped(leaves as u64)));
-    rows.push(("clusters of triangles".into(), grouped(clusters as u64)));
+    rows.push(("boxes that the ray tests".into(), grouped(path.opened.len() as u64)));
+    rows.push(("of these hit: blue".into(), grouped(hit as u64)));
+    rows.push(("clusters of triangles: a colour each".into(), grouped(clusters as u64)));
     rows.push(("primitives".into(), grouped(subject.view.scene.primitive_count())));
-    let step = 40.0;
+    let step = 38.0;
     for (row, (name, figure)) in rows.iter().enumerate() {
         let baseline = y + 30.0 + row as f64 * step;
         let style = theme.text();

@@ -1,6 +1,7 @@
 //! Which pixels a figure looks at if nobody chooses one.
 
-use crate::common::exact::EdgeSigns;
+use super::patch::Patch;
+use crate::common::exact::{Coverage, EdgeSigns};
 use crate::common::{Frame, Options, Primitive, Sign, View};
 use crate::figure::subject::{seen, with_image};
 use std::collections::{BTreeMap, HashMap};
@@ -94,9 +95,14 @@ struct Border {
 }
 
 /// A pixel where something is decided, and the primitive to look at there: best a tie of a triangle, else the outline of
-/// an object; of those a primitive of many pixels, and near the middle.
-pub(super) fn best_border(view: &View, frame: &Frame) -> Option<([u32; 2], u64)> {
+/// an object; of those a primitive of many pixels, and near the middle. `patch` is what is shown around a pixel.
+pub(super) fn best_border(
+    view: &View,
+    frame: &Frame,
+    patch: impl Fn([u32; 2]) -> Patch,
+) -> Option<([u32; 2], u64)> {
     const MOST: usize = 4000;
+    let whole = |part: usize| u32::try_from(part).expect("within the image");
     let borders = borders(view, frame);
     let mut pixels: HashMap<u64, usize> = HashMap::new();
     frame.ids().iter().flatten().for_each(|id| *pixels.entry(id).or_default() += 1);
@@ -108,8 +114,17 @@ pub(super) fn best_border(view: &View, frame: &Frame) -> Option<([u32; 2], u64)>
     let at = |pixel: [usize; 2], border: &Border| {
         judge.coverage(&view.primitive(border.id), &grid.ray(pixel[0], pixel[1]))
     };
-    let is_tie = |border: &Border| {
-        at(border.pixels[0], border).edges.is_some_and(|edges| on_boundary(&edges))
+    let is_tie = |coverage: &Coverage| coverage.edges.is_some_and(|edges| on_boundary(&edges));
+    // A patch with a tie that is covered and one that is not shows both sides of the rule.
+    let verdicts = |border: &Border| {
+        let [row, column] = border.pixels[0];
+        let tie = Some(at([row, column], border)).filter(is_tie);
+        let Some(tie) = tie.filter(|_| is_triangle(border.id)) else { return 0 };
+        let patch = patch([row, column].map(whole));
+        let other = |pixel| {
+            Some(at(pixel, border)).filter(is_tie).is_some_and(|other| other.covers != tie.covers)
+        };
+        if patch.pixels().any(other) { 2 } else { 1 }
     };
     // What lies behind the other goes on behind it: there is no edge of its own to see.
     let ends = |border: &Border| {
@@ -121,14 +136,13 @@ pub(super) fn best_border(view: &View, frame: &Frame) -> Option<([u32; 2], u64)>
     let rank = |border: &Border| {
         let triangle = is_triangle(border.id);
         let ends = ends(border);
-        (triangle && is_tie(border), triangle && ends, ends && border.outline, seen(border))
+        (verdicts(border), triangle && ends, ends && border.outline, seen(border))
     };
     let step = borders.len().div_ceil(MOST).max(1);
     let best = borders
         .iter()
         .step_by(step)
         .max_by(|a, b| rank(a).cmp(&rank(b)).then(far(b.pixels[0]).total_cmp(&far(a.pixels[0]))))?;
-    let whole = |part: usize| u32::try_from(part).expect("within the image");
     Some((best.pixels[0].map(whole), best.id))
 }
 

@@ -1,10 +1,10 @@
 //! One pixel's ray: every hit at its `t`, the boxes that it hits, what was tested, and what won.
 
+use super::one_ray::{Path, telling};
 use crate::common::glam::{DVec3, Vec3};
-use crate::common::observe::{Events, Observer};
-use crate::common::raster::Sample;
-use crate::common::{Crop, Frame, Options, Ray, View};
+use crate::common::{Options, Ray, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::figure::marks::crosshair;
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP, number};
 use crate::figure::subject::{FigureError, Subject, small_picture};
 use crate::figure::theme::{Role, ramp};
@@ -54,76 +54,6 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     Ok(sheet.drawing)
 }
 
-/// The pixel whose ray hits most; of several, the one nearest to the middle.
-fn telling(view: &View) -> Result<[u32; 2], FigureError> {
-    use super::counts::{Counted, Counts};
-    let mut counts = Counts::new(view.camera.image(), Counted::Fragments);
-    super::work::watch(view, crate::orders::Order::Object, &mut counts);
-    let [width, height] = view.camera.image();
-    let middle = [f64::from(height) / 2.0, f64::from(width) / 2.0];
-    let far = |[i, j]: [u32; 2]| (f64::from(i) - middle[0]).hypot(f64::from(j) - middle[1]);
-    let pixels = (0..height).flat_map(|i| (0..width).map(move |j| [i, j]));
-    // More than a handful of hits is more than a slide shows well.
-    let of_pixel = |[i, j]: [u32; 2]| counts.at(i as usize, j as usize).min(5);
-    pixels
-        .filter(|pixel| of_pixel(*pixel) > 0)
-        .min_by(|a, b| of_pixel(*b).cmp(&of_pixel(*a)).then(far(*a).total_cmp(&far(*b))))
-        .ok_or_else(|| {
-            FigureError::new(
-                "no ray hits anything; choose a pixel with --pixel ROW,COLUMN to see a miss",
-            )
-        })
-}
-
-/// What the fast ray tracer did for one ray.
-#[derive(Clone, Debug, Default)]
-struct Path {
-    sample: Option<Sample>,
-    opened: Vec<(u32, bool)>,
-    tested: u64,
-    judged: u64,
-}
-
-impl Path {
-    fn of(view: &View, prepared: &raytrace::fast::Prepared, [i, j]: [u32; 2]) -> Path {
-        let crop = Crop { row: i, column: j, height: 1, width: 1 };
-        let options = Options { crop: Some(crop), ..Options::default() };
-        let mut frame = Frame::new(view.camera, &options);
-        let sample = Sample { row: i as usize, column: j as usize };
-        let mut path = Path { sample: Some(sample), ..Path::default() };
-        raytrace::fast::determine_visibility(prepared, view, &options, &mut frame, &mut path);
-        path
-    }
-}
-
-impl Observer for Path {
-    fn fork(&self) -> Self {
-        Path { sample: self.sample, ..Path::default() }
-    }
-
-    fn join(&mut self, part: Self) {
-        self.opened.extend(part.opened);
-        self.tested += part.tested;
-        self.judged += part.judged;
-    }
-}
-
-impl Events for Path {
-    fn node_opened(&mut self, sample: Sample, node: u32, hit: bool) {
-        if self.sample == Some(sample) {
-            self.opened.push((node, hit));
-        }
-    }
-
-    fn sample_tested(&mut self, sample: Sample, _primitive: u64) {
-        self.tested += u64::from(self.sample == Some(sample));
-    }
-
-    fn judged(&mut self, sample: Sample, _question: crate::common::observe::Question) {
-        self.judged += u64::from(self.sample == Some(sample));
-    }
-}
-
 /// From which `t` to which a ray is in a box.
 fn interval(view: &View, ray: &Ray, one: &HierarchyBox) -> Option<[f64; 2]> {
     let [low, high]: [DVec3; 2] = [one.low, one.high].map(|corner: Vec3| view.offset(corner));
@@ -150,15 +80,7 @@ fn picture(sheet: &mut Sheet, subject: &Subject, [i, j]: [u32; 2]) {
     let x = corner[0] + (f64::from(j) + 0.5) / image[0] * width;
     let y = corner[1] + (f64::from(i) + 0.5) / image[1] * height;
     sheet.drawing.window(Some((corner, [width, height])));
-    for (pen, reach) in
-        [(Pen::new(theme.background(), 7.0), 31.0), (Pen::new(theme.of(Role::Focus), 3.5), 30.0)]
-    {
-        sheet.drawing.ring([x, y], 14.0, pen);
-        for [across, down] in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
-            let from = [x + 14.0 * across, y + 14.0 * down];
-            sheet.drawing.line(&[from, [x + reach * across, y + reach * down]], pen);
-        }
-    }
+    crosshair(&mut sheet.drawing, [x, y], theme);
     sheet.drawing.window(None);
 }
 
@@ -179,8 +101,8 @@ fn words(sheet: &mut Sheet, subject: &Subject, report: &SampleReport, path: &Pat
         }
     };
     sheet.heading([x, top], width, "the ray, and what it tests", "");
-    let origin = format!("origin p = {}", vector(eye + report.ray.origin));
-    let direction = format!("direction d = {}", vector(report.ray.direction));
+    let origin = format!("origin 𝐩 = {}", vector(eye + report.ray.origin));
+    let direction = format!("direction 𝐝 = {}", vector(report.ray.direction));
     let boxes = format!(
         "{} tested, {} of them hit",
         count(path.opened.len() as u64, "boxes"),
@@ -194,7 +116,7 @@ fn words(sheet: &mut Sheet, subject: &Subject, report: &SampleReport, path: &Pat
     let judged = format!("{} left to the exact judge", count(path.judged, "decisions"));
     let text = theme.text();
     let rows = [
-        ("r(t) = p + t d", text),
+        ("𝐫(t) = 𝐩 + t 𝐝", text),
         (origin.as_str(), text),
         (&direction, text),
         (&boxes, text),

@@ -77,6 +77,16 @@ impl<'a> Triangles<'a> {
         (self.corners, self.numbers)
     }
 
+    /// The index of each triangle of the mesh, by its number; empty if indices are numbers.
+    pub(crate) fn places(self) -> Vec<u32> {
+        let numbers = self.numbers.unwrap_or(&[]);
+        let mut places = vec![0; numbers.len()];
+        for (index, number) in (0..).zip(numbers) {
+            places[*number as usize] = index;
+        }
+        places
+    }
+
     /// The number in the mesh of the triangle at this index.
     #[inline(always)]
     pub(crate) fn number(&self, index: u32) -> u32 {

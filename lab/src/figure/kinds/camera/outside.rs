@@ -259,7 +259,7 @@ fn axes(drawing: &mut Drawing, outside: &Outside, stage: &Stage, camera: &Camera
         .max((stage.viewport[3] - stage.viewport[0]).length());
     let length = (0.5 * viewport)
         .clamp(0.06 * outside.camera.viewport()[0], 0.16 * outside.camera.viewport()[0]);
-    for (axis, name) in [(camera.u(), "u"), (camera.v(), "v"), (camera.w(), "w")] {
+    for (axis, name) in [(camera.u(), "𝐮"), (camera.v(), "𝐯"), (camera.w(), "𝐰")] {
         let tip = outside.place(length * axis);
         drawing.arrow(outside.place(DVec3::ZERO), tip, Pen::new(theme.bright(), 3.0));
         let name_at = outside.place(1.16 * length * axis);

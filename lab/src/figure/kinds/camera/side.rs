@@ -64,9 +64,9 @@ pub(super) fn draw(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &Vi
     }
     distance(drawing, [eye[0], place(bottom)[0]], place(bottom)[1] + 42.0, (stage, camera), theme);
     let ray_middle = place(0.5 * (ray.at(stage.passing(camera)) + stage.end(ray, camera)));
-    label_at(drawing, ray_middle, [0.0, -1.0], "r(t) = p + t d", theme, focus);
+    formula_at(drawing, ray_middle, "𝐫(t) = 𝐩 + t 𝐝", theme, focus);
     let w = theme.label().semi_bold();
-    drawing.label([right - 34.0, eye[1]], [0.0, 1.0], "−w", w, Some(theme.mat()));
+    drawing.label([right - 34.0, eye[1]], [0.0, 1.0], "−𝐰", w, Some(theme.mat()));
     drawing.window(None);
     sheet.border(corner, size);
 }
@@ -92,14 +92,12 @@ fn distance(
         enlarged if enlarged < 1.0 => format!("d/{} (d = {d})", number(1.0 / enlarged, 3)),
         _ => format!("d = {d}"),
     };
-    label_at(
-        drawing,
-        [0.5 * (from + to), below],
-        [0.0, -1.0],
-        &text,
-        theme,
-        theme.of(Role::Camera),
-    );
+    formula_at(drawing, [0.5 * (from + to), below], &text, theme, theme.of(Role::Camera));
+}
+
+/// A formula above a point. Its letters are light, so that vectors are told from numbers.
+fn formula_at(drawing: &mut Drawing, point: [f64; 2], text: &str, theme: Theme, color: [u8; 3]) {
+    drawing.label(point, [0.0, -1.0], text, theme.label().of(color), Some(theme.mat()));
 }
 
 /// What is seen in the middle of one column of the picture, from top to bottom: points relative to the eye, and their objects. A picture
