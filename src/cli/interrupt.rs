@@ -29,10 +29,21 @@ struct State {
     asked: bool,
     /// The first Ctrl-C asks the run to end early.
     asks_first: bool,
+    /// What is said of the files that are in place while the run goes on.
+    stays: Option<String>,
 }
 
-static STATE: Mutex<State> =
-    Mutex::new(State { unfinished: Vec::new(), placed: false, asked: false, asks_first: false });
+impl State {
+    const BEGIN: State = State {
+        unfinished: Vec::new(),
+        placed: false,
+        asked: false,
+        asks_first: false,
+        stays: None,
+    };
+}
+
+static STATE: Mutex<State> = Mutex::new(State::BEGIN);
 
 /// Whether the run is asked to end early.
 static ENDS_EARLY: AtomicBool = AtomicBool::new(false);
@@ -41,6 +52,13 @@ static ENDS_EARLY: AtomicBool = AtomicBool::new(false);
 pub(super) fn first_asks() -> &'static AtomicBool {
     state().asks_first = true;
     &ENDS_EARLY
+}
+
+/// The files that are in place are not yet all: the run goes on, and if it is interrupted, this is said of them.
+pub(super) fn goes_on(stays: String) {
+    let mut state = state();
+    state.placed = false;
+    state.stays = Some(stays);
 }
 
 /// Marks a folder as unfinished until this value is dropped.
@@ -73,6 +91,8 @@ pub(super) fn clean_up() {
         }
         if state.placed {
             anstream::eprintln!("\ninterrupted: all files are written");
+        } else if let Some(stays) = &state.stays {
+            anstream::eprintln!("\ninterrupted: {stays}");
         } else if !state.unfinished.is_empty() {
             anstream::eprintln!("\ninterrupted: nothing was written");
         }
@@ -129,8 +149,7 @@ mod tests {
 
     #[test]
     fn only_a_run_whose_files_are_in_place_goes_on_and_once() {
-        let unfinished = Vec::new();
-        let mut state = State { unfinished, placed: false, asked: false, asks_first: false };
+        let mut state = State::BEGIN;
         assert!(!state.is_left_to_end());
         state.placed = true;
         assert!(state.is_left_to_end());

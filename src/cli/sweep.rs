@@ -4,6 +4,7 @@ mod report;
 
 use super::args::{from_1, size, threads};
 use super::failure::Failure;
+use super::interrupt;
 use super::output::{OutputFile, Staging};
 use super::status_line::StatusLine;
 use super::terminal;
@@ -159,6 +160,7 @@ fn measure(args: &SweepArgs, plan: &Plan, axes: &[Axis], table: &mut Table) -> R
         line.say(format!("{x} {}", task.case.axis.unit()));
         table.insert(task, bench.measure(&task));
         file.write(|out| out.write_all(table.csv().as_bytes()))?;
+        interrupt::goes_on(format!("what was measured stays in {}", file.said()));
         line.step();
     }
     Ok(())

@@ -166,6 +166,26 @@ fn an_interrupted_rendering_leaves_nothing_behind() {
     assert_eq!((left.len(), fs::read_to_string(&report).unwrap().as_str()), (1, "old"));
 }
 
+#[test]
+fn a_sweep_ends_at_once_and_keeps_what_it_measured() {
+    let home = tempfile::tempdir().unwrap();
+    let sweep = ["sweep", "triangles", "--most", "10M", "--rounds", "100", "-o", "out"];
+    let mut child = bothways(&home, &sweep).spawn().unwrap();
+    let csv = home.path().join("out/sweep.csv");
+    let measured = || fs::read_to_string(&csv).map_or(0, |text| text.lines().count());
+    while measured() < 4 {
+        assert_eq!(child.try_wait().unwrap(), None, "it ends before it is interrupted");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    press_ctrl_c(&child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let said = String::from_utf8(output.stderr).unwrap();
+    let csv_said = Path::new("out").join("sweep.csv");
+    assert_eq!(said, format!("\ninterrupted: what was measured stays in {}\n", csv_said.display()));
+    assert!(measured() >= 4);
+}
+
 fn press_ctrl_c(child: &Child) {
     let id = rustix::process::Pid::from_child(child);
     rustix::process::kill_process(id, rustix::process::Signal::INT).unwrap();

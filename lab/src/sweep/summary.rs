@@ -104,14 +104,21 @@ impl Summary {
             }
             Crossing::At { x, first, sharp, .. } => {
                 let about = if sharp { "about " } else { "somewhere near " };
-                format!("from {about}{} {unit} on, {} {takes}", short(two_digits(x)), order(first))
+                format!("from {about}{} {unit} on, {} {takes}", self.place(x), order(first))
             }
             Crossing::Several { from, to, times } => format!(
                 "the curves cross {times} times between {} and {} {unit}: too close to tell there",
-                short(two_digits(from)),
-                short(two_digits(to))
+                self.place(from),
+                self.place(to)
             ),
         }
+    }
+
+    /// A place on the axis, with no more digits than are seen. Things are whole.
+    fn place(&self, x: f64) -> String {
+        let digits = two_digits(x);
+        let has_parts = self.axis == Axis::TriangleSize;
+        short(if has_parts { digits } else { digits.round().max(1.0) })
     }
 
     /// By which factor repeated times of one point differ, in the middle of all points; `None` without repetition.
