@@ -36,9 +36,9 @@ mod suggestions;
 mod together;
 
 pub use convention::{
-    Between, Change, Clip, Convention, Depth, Edges, Evidence, Faces, Field, Framing, Look, Moved,
-    NearPlane, Omission, Part, Placement, Pose, Rays, Sampling, Several, ShapeKind, Stance,
-    Vertices,
+    Between, Change, Clip, Convention, Depth, Edges, Evidence, Faces, Field, Framing,
+    Interpolation, Look, Moved, NearPlane, Omission, Part, Placement, Pose, Rays, Sampling,
+    Several, ShapeKind, Stance, Vertices,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use finding::{Explanation, Finding, Findings};

@@ -5,6 +5,7 @@
 
 mod field;
 mod framing;
+mod interpolation;
 mod omission;
 mod placement;
 mod pose;
@@ -14,6 +15,7 @@ mod vertices;
 
 pub use field::Field;
 pub use framing::{Evidence, Framing};
+pub use interpolation::Interpolation;
 pub use omission::{Between, Clip, NearPlane, Omission, Part, Several, ShapeKind};
 pub use placement::Placement;
 pub use pose::Pose;
@@ -51,6 +53,8 @@ pub struct Convention {
     pub edges: Edges,
     /// The faces that are drawn.
     pub faces: Faces,
+    /// How the distance of a triangle follows from those of its corners.
+    pub interpolation: Interpolation,
     /// The choice among the primitives at one sample.
     pub depth: Depth,
     /// Where a near plane clips; `None` for all before the eye.
@@ -183,6 +187,8 @@ pub enum Change {
     Edges(Edges),
     /// Culled faces.
     Faces(Faces),
+    /// Another distance within triangles.
+    Interpolation(Interpolation),
     /// Another choice by distance.
     Depth(Depth),
     /// A near plane.
@@ -218,6 +224,10 @@ impl Change {
         changes.extend(others.map(Change::Edges));
         changes.extend([Edges::Inclusive, Edges::Exclusive].map(Change::Edges));
         changes.extend(Vertices::OTHERS.map(Change::Vertices));
+        // Parallel rays meet a triangle at distances that are linear in the picture.
+        if camera.projection() == Projection::Perspective {
+            changes.extend(Interpolation::OTHERS.map(Change::Interpolation));
+        }
         changes
     }
 
@@ -239,6 +249,7 @@ impl Change {
             Change::Pose(_) => 12,
             Change::Framing(_) => 13,
             Change::Vertices(_) => 14,
+            Change::Interpolation(_) => 15,
         }
     }
 
@@ -250,6 +261,7 @@ impl Change {
             Change::Field(field) => field.is_rare(),
             Change::Columns(sampling) | Change::Rows(sampling) => sampling == Sampling::OneMore,
             Change::Vertices(vertices) => vertices.is_nearly_exact(),
+            Change::Interpolation(_) => true,
             _ => false,
         };
         self.axis() != other.axis() && !is_rare(self) && !is_rare(other)
@@ -261,9 +273,13 @@ impl Change {
     }
 
     /// Whether the change moves much of the picture, rather than a few samples that lie on edges, or nearly so, or at equal
-    /// distances.
+    /// distances, or distances alone.
     pub fn is_coarse(self) -> bool {
-        let moves_few = matches!(self, Change::Vertices(vertices) if vertices.is_nearly_exact());
+        let moves_few = match self {
+            Change::Vertices(vertices) => vertices.is_nearly_exact(),
+            Change::Interpolation(_) => true,
+            _ => false,
+        };
         !self.is_rule_for_ties() && !moves_few
     }
 
@@ -288,6 +304,7 @@ impl Convention {
             Change::Vertices(vertices) => Convention { vertices, ..self },
             Change::Edges(edges) => Convention { edges, ..self },
             Change::Faces(faces) => Convention { faces, ..self },
+            Change::Interpolation(interpolation) => Convention { interpolation, ..self },
             Change::Depth(depth) => Convention { depth, ..self },
             Change::Near(plane) => Convention { near: Some(plane), ..self },
             Change::Far(clip) => Convention { far: Some(clip), ..self },
@@ -314,6 +331,8 @@ impl Convention {
             (self.vertices != ours.vertices).then_some(Change::Vertices(self.vertices)),
             (self.edges != ours.edges).then_some(Change::Edges(self.edges)),
             (self.faces != ours.faces).then_some(Change::Faces(self.faces)),
+            (self.interpolation != ours.interpolation)
+                .then_some(Change::Interpolation(self.interpolation)),
             (self.depth != ours.depth).then_some(Change::Depth(self.depth)),
             self.near.map(Change::Near),
             self.far.map(Change::Far),
@@ -322,9 +341,25 @@ impl Convention {
         all.into_iter().flatten()
     }
 
+    /// Where the renderer's own loops sample columns and rows. In a file that is upside down, or mirrored, far edges of pixels
+    /// are near ones: a half that was forgotten and a half too much are the same picture there, and the former is likelier.
+    pub(super) fn own_sampling(&self) -> [Sampling; 2] {
+        let (mirrored, upside_down) = match self.placement {
+            Placement::LeftToRight => (true, false),
+            Placement::UpsideDown => (false, true),
+            Placement::HalfTurn => (true, true),
+            _ => (false, false),
+        };
+        [(self.columns, mirrored), (self.rows, upside_down)].map(|(sampling, turned)| {
+            let is_far = turned && sampling == Sampling::FarCorner;
+            if is_far { sampling.from_the_other_side() } else { sampling }
+        })
+    }
+
     /// How many mistakes it takes: the same sampling of columns and rows is one.
     pub(super) fn mistakes(&self) -> usize {
-        let is_one = self.columns == self.rows && self.columns != Sampling::default();
+        let [columns, rows] = self.own_sampling();
+        let is_one = columns == rows && columns != Sampling::default();
         self.each_change().count() - usize::from(is_one)
     }
 

@@ -3,7 +3,7 @@
 //! The loop is the lecture's object order with bounding boxes. It decides in `f64` where the bound of the roundoff
 //! allows, and asks the exact judge elsewhere: a hypothesis is held against the pixels without noise of its own.
 
-use super::convention::{Convention, Depth, Edges, Faces, Look, Omission, Vertices};
+use super::convention::{Convention, Depth, Edges, Faces, Interpolation, Look, Omission, Vertices};
 use super::drawn::{Drawn, Rows};
 use super::outline::{
     Area, PlaneDistance, TriangleOutline, area_of_sphere, area_of_triangle, whole,
@@ -109,6 +109,8 @@ enum Rounded {
     /// Covered, with `t` and the bound of its error.
     Inside(f64, f64),
     Uncertain,
+    /// The same of a triangle whose distance is not that of its plane.
+    UncertainAt(f64, f64),
 }
 
 impl Canvas<'_> {
@@ -190,7 +192,7 @@ impl Canvas<'_> {
         match Snapped::new(corners, &self.rays, vertices) {
             Snapped::Unmoved => self.add_triangle(triangle, &outline, &area),
             Snapped::Triangle(snapped) => {
-                let plane = PlaneDistance::of_triangle(corners, &self.rays);
+                let plane = self.distance_of(corners);
                 self.add_snapped((id, primitive), &snapped, &plane);
             }
             Snapped::Vanished => {}
@@ -232,12 +234,24 @@ impl Canvas<'_> {
             let y = self.rays.y[row];
             for column in self.columns_of(outline, y, area) {
                 let x = self.rays.x[column];
-                let distance =
-                    || distance.get_or_init(|| PlaneDistance::of_triangle(corners, &self.rays));
-                let rounded = rounded_triangle(outline, distance, [x, y]);
+                let distance = || distance.get_or_init(|| self.distance_of(corners));
+                let mut rounded = rounded_triangle(outline, distance, [x, y]);
+                if let Rounded::Uncertain = rounded
+                    && self.convention.interpolation != Interpolation::Perspective
+                {
+                    let (t, error) = distance().t(x, y);
+                    rounded = Rounded::UncertainAt(t, error);
+                }
                 self.keep(id, primitive, [index, column], rounded);
             }
         }
+    }
+
+    /// The distance of a triangle, as the renderer has it. Behind the eye, nothing is interpolated.
+    fn distance_of(&self, corners: &[DVec3; 3]) -> PlaneDistance {
+        let interpolation = self.convention.interpolation;
+        PlaneDistance::interpolated(corners, &self.rays, interpolation)
+            .unwrap_or_else(|| PlaneDistance::of_triangle(corners, &self.rays))
     }
 
     /// The columns of a row that may lie inside all edges.
@@ -307,10 +321,9 @@ impl Canvas<'_> {
         let (t, error) = match rounded {
             Rounded::Outside => return,
             Rounded::Inside(t, error) => (t, error),
+            _ if !covers(&self.judge, self.convention.edges, primitive, &ray()) => return,
+            Rounded::UncertainAt(t, error) => (t, error),
             Rounded::Uncertain => {
-                if !covers(&self.judge, self.convention.edges, primitive, &ray()) {
-                    return;
-                }
                 let t = self.judge.distance(primitive, &ray());
                 // The judge rounds to within a few parts in 10¹⁰.
                 (t, t * 1e-9)
@@ -486,7 +499,9 @@ mod tests {
                 let convention = Convention::default().with(change);
                 let is_of_the_nearest =
                     convention.depth == Depth::Nearest && convention.faces == Faces::Both;
-                if !is_of_the_nearest || convention.vertices != Vertices::Projected {
+                let is_exact = convention.vertices == Vertices::Projected
+                    && convention.interpolation == Interpolation::Perspective;
+                if !is_of_the_nearest || !is_exact {
                     continue;
                 }
                 let drawn = draw(view, &convention, Rows::ALL);

@@ -72,6 +72,18 @@ impl Observed {
         false
     }
 
+    /// Whether as many pixels beside one another show different things as lie along a side of the picture.
+    pub(super) fn shows_outlines(&self) -> bool {
+        let Values::Ids(ids) = &self.values else { return true };
+        let [width, height] = self.size;
+        let is_outline = |&index: &usize| {
+            let right = (index + 1) % width != 0 && ids[index] != ids[index + 1];
+            let below = index + width < ids.len() && ids[index] != ids[index + width];
+            right || below
+        };
+        (0..ids.len()).filter(is_outline).count() >= width.min(height)
+    }
+
     /// How many pixels are covered.
     pub(super) fn covered_count(&self, nothing: NothingEncoding) -> u64 {
         let pixels = 0..self.size[0] * self.size[1];

@@ -2,6 +2,7 @@
 //!
 //! All of it is computed in `f64` with a bound for the roundoff; a sample within the bound goes to the exact judge.
 
+use super::convention::Interpolation;
 use super::rays::ViewingRays;
 use crate::common::glam::DVec3;
 use crate::common::{Projection, Ray};
@@ -22,6 +23,19 @@ impl Linear {
         (self.constant + self.along_y * y) + self.along_x * x
     }
 
+    /// The function with these values at three points of the viewport; `None` if they lie on a line.
+    fn through(points: [([f64; 2], f64); 3], extent: f64) -> Option<Linear> {
+        let [([x, y], value), b, c] = points;
+        let beside = |([right, up], other): ([f64; 2], f64)| [right - x, up - y, other - value];
+        let ([bx, by, to_b], [cx, cy, to_c]) = (beside(b), beside(c));
+        let area = bx * cy - cx * by;
+        let along_x = (to_b * cy - to_c * by) / area;
+        let along_y = (bx * to_c - cx * to_b) / area;
+        let constant = value - along_x * x - along_y * y;
+        let size = constant.abs() + extent * (along_x.abs() + along_y.abs());
+        size.is_finite().then_some(Linear { constant, along_x, along_y, error: size * ROUGHLY })
+    }
+
     fn negated(self) -> Linear {
         let Linear { constant, along_x, along_y, error } = self;
         Linear { constant: -constant, along_x: -along_x, along_y: -along_y, error }
@@ -31,6 +45,8 @@ impl Linear {
 /// The roundoff of a triple product, relative to the product of the lengths of its vectors. A triple product, and the
 /// sum of three of them for a point of the viewport, take fewer than 64 roundings of 2⁻⁵³; this is four times as much.
 const RELATIVE_ERROR: f64 = 1.0 / (1_u64 << 45) as f64;
+/// The error of a distance that is interpolated, which decides nothing exactly.
+const ROUGHLY: f64 = 1e-12;
 /// What keeps a bound above zero where products underflow.
 const FLOOR: f64 = 1e-280;
 
@@ -131,6 +147,29 @@ impl PlaneDistance {
             ),
         };
         PlaneDistance { numerator, denominator }
+    }
+
+    /// The distance that a renderer gives a triangle `abc`; `None` if it reaches behind the eye.
+    pub(super) fn interpolated(
+        corners: &[DVec3; 3],
+        rays: &ViewingRays,
+        interpolation: Interpolation,
+    ) -> Option<PlaneDistance> {
+        let t = corners.map(|corner| depth_along_axis(corner, rays) / rays.distance.abs());
+        let is_ahead = t.iter().all(|t| *t > 0.0);
+        let constant =
+            |value: f64| Linear { constant: value, along_x: 0.0, along_y: 0.0, error: FLOOR };
+        let numerator = match interpolation {
+            Interpolation::Perspective => return Some(PlaneDistance::of_triangle(corners, rays)),
+            _ if !is_ahead => return None,
+            Interpolation::Linear => {
+                let [a, b, c] = corners.map(|corner| project_ahead(corner, rays));
+                Linear::through([(a?, t[0]), (b?, t[1]), (c?, t[2])], rays.extent())?
+            }
+            Interpolation::Mean => constant(t.iter().sum::<f64>() / 3.0),
+            Interpolation::FirstCorner => constant(t[0]),
+        };
+        Some(PlaneDistance { numerator, denominator: constant(1.0) })
     }
 
     /// The distance `t` at a point of the viewport, and a bound for its error.

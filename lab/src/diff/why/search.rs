@@ -5,6 +5,7 @@
 //! as each of them explains at least half of what is left. A change that explains less is left out again. The file itself
 //! tells planes, what is not drawn, the size and the place of the whole picture, and the eye and the axes from which it is seen so.
 
+mod credible;
 mod explanations;
 mod framing;
 mod least_squares;
@@ -13,7 +14,7 @@ mod nearly_right;
 mod pose;
 
 use super::candidate::{Candidate, as_good, parts};
-use super::convention::{Change, Convention, Evidence, Placement, Pose};
+use super::convention::{Change, Convention, Evidence, Placement};
 use super::differences::Differences;
 use super::draw::{draw, equally_near};
 use super::drawn::{Drawn, Rows};
@@ -78,6 +79,7 @@ pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchEr
         view,
         file,
         observed: &observed,
+        covered: observed.covered_count(NothingEncoding::Ours),
         meanings_of_nothing: observed.meanings_of_nothing(view.scene.primitive_count()),
         placements: &placements,
         truth: &truth,
@@ -109,6 +111,8 @@ struct Search<'a> {
     view: &'a View<'a>,
     file: &'a Buffer<'a>,
     observed: &'a Observed,
+    /// How many pixels of the file are covered.
+    covered: u64,
     meanings_of_nothing: Vec<NothingEncoding>,
     placements: &'a [Placement],
     truth: &'a Drawn,
@@ -134,7 +138,7 @@ impl Search<'_> {
         let mut finalists = self.finalists();
         finalists = self.improved(finalists, ours, placed.convention);
         finalists.sort_by_key(Candidate::rank);
-        let explanations = self.best(&finalists, ours);
+        let explanations = self.best(&self.credible(finalists), ours);
         match explanations.first() {
             Some(best) if best.explained * 4 >= differing => Finding::Explained(explanations),
             _ => Finding::Unexplained(self.place()),
@@ -227,13 +231,6 @@ impl Search<'_> {
         choose(&candidates);
         self.on_some_rows.set(candidates).expect("the finalists are found once");
         chosen.par_iter().map(|convention| self.drawn_whole(*convention)).collect()
-    }
-
-    fn may_explain(&self, candidate: &Candidate, ours: Score) -> bool {
-        // What shows one or two primitives, many a wrong eye sees.
-        let tells_pose =
-            candidate.convention.pose == Pose::AsStated || self.observed.shows_several_ids();
-        tells_pose && candidate.may_explain(ours, matches!(self.observed.values, Values::Mask(_)))
     }
 
     /// The best reading of the file for each placement.

@@ -5,7 +5,8 @@ mod omission;
 mod stance;
 
 use super::convention::{
-    Change, Convention, Depth, Edges, Faces, Look, Placement, Rays, Sampling, Vertices,
+    Change, Convention, Depth, Edges, Faces, Interpolation, Look, Placement, Rays, Sampling,
+    Vertices,
 };
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::finding::Explanation;
@@ -55,11 +56,12 @@ fn of_convention(
     projection: Projection,
     camera: Option<&Camera>,
 ) -> Vec<String> {
-    let mut changes = convention.changes();
+    let [columns, rows] = convention.own_sampling();
+    let mut changes = Convention { columns, rows, ..*convention }.changes();
     let mut sentences = Vec::new();
     // One mistake on both axes is one mistake.
-    if convention.columns == convention.rows
-        && let Some(both) = sampling_of_both(convention.columns)
+    if columns == rows
+        && let Some(both) = sampling_of_both(columns)
     {
         changes.retain(|change| !matches!(change, Change::Columns(_) | Change::Rows(_)));
         sentences.push(both);
@@ -124,6 +126,7 @@ fn sentence(
         Change::Vertices(vertices) => of_vertices(vertices),
         Change::Edges(edges) => of_edges(edges).into(),
         Change::Faces(faces) => of_faces(faces).into(),
+        Change::Interpolation(interpolation) => of_interpolation(interpolation).into(),
         Change::Depth(depth) => of_depth(depth).into(),
         Change::Near(plane) => of_near(plane, projection),
         Change::Far(clip) => of_far(clip, projection),
@@ -262,10 +265,28 @@ fn of_faces(faces: Faces) -> &'static str {
     }
 }
 
+fn of_interpolation(interpolation: Interpolation) -> &'static str {
+    match interpolation {
+        Interpolation::Perspective => "interpolates 1/t",
+        Interpolation::Linear => {
+            "interpolates the distance itself over a triangle, as if it were linear in the picture: 1/t is; interpolate 1/t \
+             (1/z, or 1/w), and invert it in each pixel"
+        }
+        Interpolation::Mean => {
+            "gives all pixels of a triangle one distance, the mean of its corners': interpolate 1/t in each pixel"
+        }
+        Interpolation::FirstCorner => {
+            "gives all pixels of a triangle one distance, that of its first corner: interpolate 1/t in each pixel"
+        }
+    }
+}
+
 fn of_depth(depth: Depth) -> &'static str {
     match depth {
         Depth::Nearest => "shows the nearest",
-        Depth::FirstOfEqual => "shows the first drawn of equally near primitives, always",
+        Depth::FirstOfEqual => {
+            "shows the first drawn of equally near primitives; here, where exactly a silhouette is met, its front face is seen"
+        }
         Depth::LastOfEqual => {
             "shows the last drawn of equally near primitives (<= for < in its depth test)"
         }

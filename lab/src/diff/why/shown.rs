@@ -22,7 +22,8 @@ pub(super) struct Shown {
     pub(super) lacks_front: bool,
     /// The least depth along the axis at which it agrees with the truth; infinite if it agrees nowhere.
     pub(super) nearest: f64,
-    /// Whether at least half of what it does not show lies nearer than that: a near plane explains it.
+    /// Whether at least half of what it does not show lies nearer than that, and it shows hardly any of this elsewhere: a near
+    /// plane explains it.
     pub(super) may_clip: bool,
     /// Whether meshes may stand in the place of spheres: their outlines lie inside, so that no sample is gained, and
     /// the triangles have ids of their own.
@@ -46,7 +47,7 @@ impl Shown {
                 continue;
             }
             if !agrees(&observed, index, id, truth.t[index]) {
-                missing.push(truth.t[index] * rays.distance.abs());
+                missing.push((truth.t[index] * rays.distance.abs(), index));
                 let at = [index / rays.x.len(), index % rays.x.len()];
                 if let Some(is_back) = well_within(view, rays, at, id) {
                     lacks_back |= is_back;
@@ -64,8 +65,12 @@ impl Shown {
                 shows_front |= !is_back;
             }
         }
-        let before = missing.iter().filter(|&&depth| depth < nearest).count();
-        let may_clip = 2 * before >= missing.len();
+        let before = missing.iter().filter(|(depth, _)| *depth < nearest);
+        let before: Vec<usize> = before.map(|(_, index)| *index).collect();
+        let least = nearest / rays.distance.abs();
+        let may_clip = 2 * before.len() >= missing.len()
+            && 10 * shown_elsewhere(&observed, truth, &before, least) <= before.len()
+            && 10 * shown_instead(view, rays, judge, &observed, &before) <= before.len();
         let gains = |index: usize| {
             truth.ids[index] == NO_PRIMITIVE && observed.covered(index, NothingEncoding::Ours)
         };
@@ -82,6 +87,42 @@ impl Shown {
             may_hold_meshes,
         }
     }
+}
+
+/// How many of the primitives that are missing in these pixels, or of distances below the least right one, the file shows in wrong
+/// places: what a plane cuts away is seen nowhere.
+fn shown_elsewhere(observed: &Observed, truth: &Drawn, missing: &[usize], least: f64) -> usize {
+    match &observed.values {
+        Values::Mask(_) => 0,
+        Values::Ids(ids) => {
+            let wrong = ids.iter().zip(&truth.ids).filter(|(id, own)| **id != Some((**own).into()));
+            let wrong: HashSet<u64> = wrong.filter_map(|(id, _)| *id).collect();
+            missing.iter().filter(|&&pixel| wrong.contains(&truth.ids[pixel].into())).count()
+        }
+        Values::Distances(t) => {
+            let is_near = |t: &&f64| **t > 0.0 && **t < least && !is_same_distance(**t, least);
+            t.iter().filter(is_near).count()
+        }
+    }
+}
+
+/// In how many of these pixels the file shows a primitive that does not cover the sample: behind what a plane cuts away lies what
+/// does.
+fn shown_instead(
+    view: &View,
+    rays: &ViewingRays,
+    judge: &Judge,
+    observed: &Observed,
+    pixels: &[usize],
+) -> usize {
+    let Values::Ids(ids) = &observed.values else { return 0 };
+    let width = rays.x.len();
+    let is_beside = |pixel: &&usize| {
+        let shown = ids[**pixel].filter(|&id| id < view.scene.primitive_count());
+        let ray = || rays.ray(**pixel / width, **pixel % width);
+        shown.is_some_and(|id| !judge.covers(&view.primitive(id), &ray()))
+    };
+    pixels.iter().filter(is_beside).count()
 }
 
 /// Whether a triangle that is seen at a sample is a back face; `None` if its outline is within a pixel.

@@ -1,6 +1,7 @@
 //! Mistakes are planted one at a time and in pairs, and must be named.
 
 mod blank;
+mod credible;
 mod framing;
 mod stance;
 mod stance_of_distances;

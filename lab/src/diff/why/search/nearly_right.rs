@@ -7,7 +7,7 @@ use crate::diff::why::finding::{Explanation, Finding};
 use crate::diff::why::pixels::{PixelReason, find_reasons};
 use crate::diff::why::reason::Reason;
 
-/// One pixel in so many may differ in a picture that is nearly right.
+/// One pixel in so many may differ in a picture that is nearly right; in a small one, some more.
 const MANY: u64 = 50;
 /// Fewer pixels may be as expected by accident. What changes no others is rarely that.
 const FEWEST_PIXELS: u64 = 4;
@@ -23,7 +23,7 @@ impl Search<'_> {
     /// than rounding does leaves no picture nearly right.
     pub(super) fn nearly_right(&self, ours: &Candidate) -> Option<Finding> {
         let (differing, pixels) = (ours.score.differing, self.truth.ids.len() as u64);
-        if differing * MANY > pixels {
+        if differing * MANY > pixels && differing >= FEW_PIXELS {
             return None;
         }
         if differing >= FEWEST_PIXELS {

@@ -1,7 +1,7 @@
 //! The eye, the axes and the viewport of a renderer in sentences.
 
 use super::stance::of_stance;
-use crate::common::{Camera, Projection};
+use crate::common::{Camera, Orientation, Projection};
 use crate::diff::why::convention::{Evidence, Field, Framing, Placement, Pose};
 use crate::wording::three_digits;
 
@@ -135,7 +135,9 @@ pub(super) fn of_framing(
     let turned =
         if placement == Placement::Upright { "" } else { " (once the picture is upright)" };
     let beside = if is_alone { ", and nothing around it" } else { "" };
+    let by_axes = camera.and_then(|camera| cause_of_axes(framing, camera));
     let cause = camera.and_then(|camera| match (size.is_some(), moved.is_some()) {
+        _ if by_axes.is_some() => by_axes,
         (true, _) if is_alone => cause_of_part(framing, camera).map(|part| format!(": {part}?")),
         (true, false) => Some(causes_of_size([x, y], evidence, camera)),
         (false, true) if !is_alone => Some(causes_of_shift(by_contour, camera)),
@@ -166,6 +168,39 @@ fn apart(one: f64, other: f64) -> [String; 2] {
         one != other
     };
     written((3..=6).find(differ).unwrap_or(3))
+}
+
+/// The mistake in the axes of a rasterizer that shows everything in this size and place: it projects `p` on them, as
+/// `d (p·u)/(−p·w)`, so that what is too long there makes the picture too large.
+fn cause_of_axes(framing: Framing, camera: &Camera) -> Option<String> {
+    /// So far off may scale and shift be, as measured: a part, and pixels.
+    const SCALE: f64 = 2e-3;
+    const SHIFT: f64 = 0.3;
+    let up = match camera.description().orientation {
+        Orientation::LookAt { up, .. } | Orientation::Direction { up, .. } => up.as_dvec3(),
+        Orientation::Frame { .. } => return None,
+    };
+    let is = |scale: [f64; 2], down: f64| {
+        let off = |axis: usize| (framing.scale[axis] / scale[axis] - 1.0).abs();
+        let is_moved_so = framing.shift[0].abs() < SHIFT && (framing.shift[1] - down).abs() < SHIFT;
+        off(0) < SCALE && off(1) < SCALE && is_moved_so
+    };
+    if framing.is_alone || camera.projection() == Projection::Parallel {
+        return None;
+    }
+    let (along_v, along_w) = (up.dot(camera.v()), up.dot(camera.w()));
+    let pixels = f64::from(camera.image()[1]) / camera.viewport()[1];
+    let length = up.cross(camera.w()).length();
+    if is([1.0, along_v], camera.distance() * along_w * pixels) && along_w.abs() > SCALE {
+        Some(": does it project on up in place of v? v = w x u is perpendicular to the view, and up is not".into())
+    } else if (length - 1.0).abs() > SCALE && is([length; 2], 0.0) {
+        let length = three_digits(length);
+        Some(format!(
+            ": does it project on u and v that are {length} long? Divide u = up x w by its length, and take v = w x u then"
+        ))
+    } else {
+        None
+    }
 }
 
 /// The image that is so much smaller than the one that is asked for.
@@ -287,6 +322,25 @@ mod tests {
             said([0.9998, 1.0], [2.0, 0.02], false, Upright),
             "shows everything 2 pixels too far to the right: is the middle of its viewport not on the axis of its camera?"
         );
+    }
+
+    #[test]
+    fn a_framing_may_come_from_the_axes_of_a_rasterizer() {
+        use crate::common::glam::Vec3;
+        let orientation = Orientation::LookAt { target: Vec3::new(0.0, -3.0, -4.0), up: Vec3::Y };
+        let description =
+            CameraDescription { orientation, image: [10, 10], ..CameraDescription::default() };
+        let camera = Camera::new(description).unwrap();
+        let said = |scale, shift| {
+            let framing = Framing { scale, shift, ..Framing::default() };
+            of_framing(framing, Placement::Upright, Some(&camera))
+        };
+        // w is (0, 0.6, 0.8).
+        assert!(said([1.0, 0.8], [0.0, 6.0]).contains("does it project on up in place of v?"));
+        assert!(said([0.8, 0.8], [0.0, 0.0]).contains("u and v that are 0.8 long?"));
+        for (scale, shift) in [([1.0, 0.8], [0.0, 0.0]), ([0.8, 0.8], [0.0, 6.0])] {
+            assert!(!said(scale, shift).contains("project"));
+        }
     }
 
     #[test]
