@@ -17,6 +17,7 @@ mod evidence;
 mod expected;
 mod finding;
 mod fit;
+mod missing;
 mod near;
 mod numbering;
 mod observed;
@@ -42,6 +43,7 @@ pub use convention::{
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use finding::{Explanation, Finding, Findings};
+pub use missing::{Missing, Scattered};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};
 pub use reason::{Reason, ReasonKind, TieRules};
 pub use samples::camera_of_samples;

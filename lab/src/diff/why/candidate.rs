@@ -1,8 +1,13 @@
 //! A hypothesis, and how well it does.
 
 use super::convention::{Convention, Pose};
-use super::encoding::Encoding;
+use super::encoding::{Encoding, IdEncoding};
 use super::expected::Score;
+
+/// One of so many differing pixels may contradict the names of primitives.
+const FEW_OTHER_NAMES: u64 = 10;
+/// One of so many may be covered otherwise beside other names.
+const FEW_UNCOVERED: u64 = 50;
 
 /// A hypothesis and how well it does.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +41,10 @@ impl Candidate {
             (true, false) => 10,
             (false, _) => 1,
         };
+        // Names that each primitive may have fit much of anything: they must agree nearly everywhere, and cover what is seen.
+        let may_be_names = self.encoding.ids != IdEncoding::OneToOne
+            || (FEW_OTHER_NAMES * self.score.contradicting <= ours.differing
+                && FEW_UNCOVERED * self.score.coverage <= ours.differing);
         let is_measured = self.encoding.has_own_numbers() || self.convention.is_framed();
         // Another eye, or nearly the same field of view, sees much of what ours sees.
         let is_close =
@@ -45,6 +54,7 @@ impl Candidate {
         let least = parts_left.max(omission_left).max(close_left).max(free_left);
         let most_mistakes = if is_mask { 2 } else { 3 };
         mistakes <= most_mistakes
+            && may_be_names
             && least * self.score.differing <= ours.differing
             && 10 * lost <= explained
     }

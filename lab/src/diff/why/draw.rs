@@ -20,6 +20,16 @@ use std::ops::Range;
 
 /// Draws the scene under a convention; placement is left to the reader of the picture.
 pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
+    draw_those(view, convention, rows, |_| true)
+}
+
+/// The same of those primitives alone for which a condition holds.
+pub(super) fn draw_those(
+    view: &View,
+    convention: &Convention,
+    rows: Rows,
+    is_there: impl Fn(u32) -> bool,
+) -> Drawn {
     let rays = ViewingRays::new(view.camera, convention);
     let camera = convention.camera(view.camera);
     let view = &View::new(view.scene, &camera);
@@ -42,7 +52,7 @@ pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
         errors: vec![0.0; count],
     };
     for (id, primitive) in (0..).zip(view.primitives().map(|(_, primitive)| primitive)) {
-        if !convention.omission.omits(id, &primitive) {
+        if is_there(id) && !convention.omission.omits(id, &primitive) {
             canvas.add(id, &primitive);
         }
     }

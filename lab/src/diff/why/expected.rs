@@ -21,6 +21,8 @@ pub(super) struct Score {
     /// Pixels in which the file has what it should, and not our number of nothing. (Where another number stands for nothing,
     /// pixels of nothing count, too.)
     pub(super) shown: u64,
+    /// Pixels that contradict the number that a primitive has elsewhere, where each has a number of its own.
+    pub(super) contradicting: u64,
 }
 
 /// A picture as the numbers of a file should show it.
@@ -222,8 +224,11 @@ impl<'a> Expected<'a> {
             score.coverage += u64::from(covers_otherwise);
             score.shown += u64::from(!differs && observed.covered(at, NothingEncoding::Ours));
         });
-        if encoding.ids == IdEncoding::OneToOne && !renaming.is_general() {
-            score.differing = u64::MAX;
+        if encoding.ids == IdEncoding::OneToOne {
+            score.contradicting = renaming.contradicting();
+            if !renaming.is_general() {
+                score.differing = u64::MAX;
+            }
         }
         score
     }

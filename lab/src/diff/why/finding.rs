@@ -1,7 +1,8 @@
 //! What a search for conventions may find.
 
 use super::convention::{Change, Convention};
-use super::encoding::Encoding;
+use super::encoding::{Encoding, IdEncoding};
+use super::missing::Missing;
 
 /// What a search found.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +39,8 @@ pub struct Explanation {
     pub convention: Convention,
     /// What its numbers stand for.
     pub encoding: Encoding,
+    /// Primitives that are missing, and in whose absence those behind them have smaller ids; mostly none.
+    pub missing: Vec<Missing>,
     /// The number of differing pixels that are as expected under these conventions.
     pub explained: u64,
     /// The number of pixels that differ under these conventions, too.
@@ -54,7 +57,14 @@ impl Explanation {
 
     /// Whether the explanation moves much of the picture, rather than a few samples on edges, or nearly so, or at equal distances.
     pub fn is_coarse(&self) -> bool {
-        !self.encoding.is_ours() || self.convention.changes().into_iter().any(Change::is_coarse)
+        !self.missing.is_empty()
+            || !self.encoding.is_ours()
+            || self.convention.changes().into_iter().any(Change::is_coarse)
+    }
+
+    /// Whether it leaves fewer pixels than another one. Numbers of its own for each primitive say less than anything.
+    pub(super) fn is_better_than(&self, other: &Explanation) -> bool {
+        self.remaining < other.remaining || other.encoding.ids == IdEncoding::OneToOne
     }
 
     /// Whether less than half of the differing pixels are explained.

@@ -10,6 +10,7 @@ pub(super) struct Renaming {
     back: HashMap<u64, u32>,
     /// Primitives that were met where the file has the name of another one.
     disputed: HashSet<u32>,
+    contradicting: u64,
 }
 
 impl Renaming {
@@ -21,6 +22,11 @@ impl Renaming {
         renamed >= 2 && 2 * renamed >= self.forth.len() && 4 * nameless <= self.forth.len()
     }
 
+    /// In how many pixels a primitive has another name than elsewhere, or the name of another one.
+    pub(super) fn contradicting(&self) -> u64 {
+        self.contradicting
+    }
+
     pub(super) fn holds(&mut self, id: u32, name: u64) -> bool {
         match (self.forth.entry(id), self.back.entry(name)) {
             (Entry::Vacant(forth), Entry::Vacant(back)) => {
@@ -30,13 +36,19 @@ impl Renaming {
                 u64::from(id) == name
             }
             (Entry::Occupied(forth), Entry::Occupied(back)) => {
-                *forth.get() == name && *back.get() == id
+                let is_own = *forth.get() == name && *back.get() == id;
+                self.contradicting += u64::from(!is_own);
+                is_own
             }
             (Entry::Vacant(_), Entry::Occupied(_)) => {
                 self.disputed.insert(id);
+                self.contradicting += 1;
                 false
             }
-            (Entry::Occupied(_), Entry::Vacant(_)) => false,
+            (Entry::Occupied(_), Entry::Vacant(_)) => {
+                self.contradicting += 1;
+                false
+            }
         }
     }
 }

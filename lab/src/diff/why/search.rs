@@ -138,7 +138,12 @@ impl Search<'_> {
         let mut finalists = self.finalists();
         finalists = self.improved(finalists, ours, placed.convention);
         finalists.sort_by_key(Candidate::rank);
-        let explanations = self.best(&self.credible(finalists), ours);
+        let mut explanations = self.best(&self.credible(finalists), ours);
+        if let Some(missing) = self.missing()
+            && explanations.first().is_none_or(|best| missing.is_better_than(best))
+        {
+            explanations = vec![missing];
+        }
         match explanations.first() {
             Some(best) if best.explained * 4 >= differing => Finding::Explained(explanations),
             _ => Finding::Unexplained(self.place()),

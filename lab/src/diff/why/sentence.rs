@@ -1,6 +1,7 @@
 //! Conventions in sentences that a student can act on.
 
 mod camera;
+mod missing;
 mod omission;
 mod stance;
 
@@ -13,6 +14,7 @@ use super::finding::Explanation;
 use crate::common::{Camera, Projection};
 use crate::wording::{readable, three_digits};
 use camera::{of_fields, of_framing, of_pose};
+use missing::of_missing;
 use omission::{of_far, of_near, of_omission};
 
 impl Explanation {
@@ -20,6 +22,9 @@ impl Explanation {
     pub fn sentences(&self, name: &str, camera: &Camera) -> Vec<String> {
         let mut parts = of_convention(&self.convention, camera.projection(), Some(camera));
         parts.extend(of_encoding(&self.encoding));
+        if !self.missing.is_empty() {
+            parts.push(of_missing(&self.missing));
+        }
         parts.iter().map(|part| with_name(part, name)).collect()
     }
 }

@@ -3,6 +3,7 @@
 mod blank;
 mod credible;
 mod framing;
+mod missing;
 mod stance;
 mod stance_of_distances;
 mod stance_of_mask;

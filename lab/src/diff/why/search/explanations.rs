@@ -7,6 +7,8 @@ use crate::diff::why::drawn::Rows;
 use crate::diff::why::encoding::Encoding;
 use crate::diff::why::expected::{Expected, Score};
 use crate::diff::why::finding::Explanation;
+use crate::diff::why::missing::{Renumbered, renumbered};
+use crate::diff::why::observed::Values;
 
 impl Search<'_> {
     /// The explanations that leave as few pixels as the best one, simplest first.
@@ -49,10 +51,31 @@ impl Search<'_> {
         Explanation {
             convention,
             encoding,
+            missing: Vec::new(),
             explained: differing.saturating_sub(score.differing),
             remaining: score.differing,
             pixels: self.explained(candidate),
         }
+    }
+
+    /// What a file of ids lacks and does not count, if that explains nearly all of it.
+    pub(super) fn missing(&self) -> Option<Explanation> {
+        let Values::Ids(ids) = &self.observed.values else { return None };
+        if !self.placements.contains(&Placement::Upright) {
+            return None;
+        }
+        let Renumbered { missing, differs } = renumbered(self.view, self.truth, ids)?;
+        let remaining = differs.iter().filter(|&&differs| differs).count() as u64;
+        let mut explained = self.differing_by_ours();
+        explained.iter_mut().zip(&differs).for_each(|(wrong, differs)| *wrong &= !differs);
+        Some(Explanation {
+            convention: Convention::default(),
+            encoding: Encoding::default(),
+            missing,
+            explained: self.ours.differing.saturating_sub(remaining),
+            remaining,
+            pixels: self.pixels(&explained),
+        })
     }
 
     /// The pixels that differ under our conventions, and not under these.
