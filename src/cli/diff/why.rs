@@ -222,15 +222,18 @@ impl<'a> Why<'a> {
                     "{name} is wrong in {wrong}, by rounding alone: its conventions are those of the scene"
                 ),
             ),
-            Finding::Unexplained(place) => {
-                let place = place.as_ref().map_or(String::new(), |place| format!("; {place}"));
-                line(
-                    text,
-                    format_args!(
-                        "{name} is wrong in {wrong}, and no convention that is known here explains a quarter of them{place}"
-                    ),
-                );
-            }
+            Finding::Unexplained(Some(place)) => line(
+                text,
+                format_args!(
+                    "{name} is wrong in {wrong}; {place}; no convention that is known here explains a quarter of them"
+                ),
+            ),
+            Finding::Unexplained(None) => line(
+                text,
+                format_args!(
+                    "{name} is wrong in {wrong}, and no convention that is known here explains a quarter of them"
+                ),
+            ),
             Finding::Explained(explanations) => {
                 self.explanations(name, *differing, explanations, text);
             }

@@ -9,7 +9,7 @@ use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
 use std::collections::BTreeSet;
 
-/// What every wrong pixel shows, or should show; as a sentence without its end. `None` if there is no such thing, or if nothing
+/// What every wrong pixel shows, or should show, and what to do; as a sentence without its end. `None` if there is no such thing, or if nothing
 /// else is shown rightly.
 pub(super) fn common_place(view: &View, observed: &Observed, truth: &Drawn) -> Option<String> {
     let expected = Expected::new(view, &Convention::default(), truth);
@@ -35,7 +35,10 @@ pub(super) fn common_place(view: &View, observed: &Observed, truth: &Drawn) -> O
     // Where nothing else is right, the file tells nothing of this thing.
     let is_one_of_many = |thing: &&Thing| right.iter().any(|&id| !thing.holds(view, id));
     let thing = places.iter().filter(is_one_of_many).min_by_key(|thing| thing.rank())?;
-    Some(format!("every wrong pixel shows {}, or should", thing.words(view)))
+    Some(format!(
+        "all wrong pixels lie on {}: look at how it is read, placed and tested",
+        thing.words(view)
+    ))
 }
 
 /// The primitive that the file shows, if it tells.

@@ -464,7 +464,9 @@ fn where_one_thing_is_wrong_it_is_named_and_no_cause_is_guessed() {
         let t: Vec<f64> = truth.ids.iter().zip(&truth.t).map(other).collect();
         let file = Buffer::new([64, 64], 1, Content::Distances(t));
         let finding = find_conventions(view, &file).unwrap().finding;
-        let place = format!("every wrong pixel shows id {sphere}, a sphere, or should");
+        let place = format!(
+            "all wrong pixels lie on id {sphere}, a sphere: look at how it is read, placed and tested"
+        );
         assert_eq!(finding, Finding::Unexplained(Some(place)));
     });
 }
@@ -520,7 +522,9 @@ fn a_numbering_from_another_number_is_named() {
         let is_one_to_one = |one: &Explanation| one.encoding.ids == IdEncoding::OneToOne;
         assert!(found.iter().all(is_one_to_one), "{finding:?}");
         let floor = ids[ids.len() - 1];
-        let place = format!("every wrong pixel shows id {floor}, a plane, or should");
+        let place = format!(
+            "all wrong pixels lie on id {floor}, a plane: look at how it is read, placed and tested"
+        );
         assert_eq!(finding_of(floor), Finding::Unexplained(Some(place)));
     });
 }
