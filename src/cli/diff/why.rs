@@ -81,6 +81,8 @@ pub(super) struct Why<'a> {
     camera: &'a Camera,
     /// Samples along a side of a pixel. If there are several, each counts as a pixel in what follows.
     samples: u32,
+    /// Whether one of the files covers nothing.
+    has_empty_file: bool,
     /// The scene and the camera's options, as they were given: what `bothways pixel` needs.
     scene: String,
     /// The conventions of A and of B, or why they cannot be found.
@@ -112,13 +114,17 @@ impl<'a> Why<'a> {
                 reasons.explained_by(side, &found[0]);
             }
         }
-        Why { camera: view.camera, samples, scene, conventions, reasons }
+        let coverage = comparison.coverage;
+        let has_empty_file = coverage.is_some_and(|covered| covered.a.min(covered.b) == 0);
+        Why { camera: view.camera, samples, has_empty_file, scene, conventions, reasons }
     }
 
     /// The report as text: reasons, conventions, and the next step.
     pub(super) fn text(&self) -> String {
         let mut text = String::new();
         match &self.reasons {
+            // That some pixels of a file without content lie near edges says nothing of why it is empty.
+            Ok(_) if self.has_empty_file => {}
             Ok(reasons) => self.table(reasons, &mut text),
             Err(error) => line(&mut text, format_args!("no reasons: {error}")),
         }

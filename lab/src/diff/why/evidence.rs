@@ -17,7 +17,7 @@ pub(super) fn no_evidence(view: &View, observed: &Observed, truth: &Drawn) -> Op
     if covered == 0 {
         Some(
             "the file covers nothing, as where a renderer looks the other way (along +w) or from another place, culls or \
-             clips everything, or never hits"
+             clips everything, never hits, or clears its depth buffer to 0, so that nothing is ever nearer"
                 .into(),
         )
     } else if seen == 0 {
