@@ -15,6 +15,7 @@
 //! # Ok::<(), bothways_lab::diff::foreign::Incomparable>(())
 //! ```
 
+mod bands;
 mod channels;
 mod colors;
 mod depth;

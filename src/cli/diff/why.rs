@@ -8,7 +8,7 @@ use crate::cli::shell::quoted;
 use anstyle::Style;
 use bothways::common::{Camera, Crop, Scene, View};
 use bothways::diff::foreign::{
-    Buffer, BufferComparison, CompareOptions, Side, compare_with, exchanged_sides,
+    Buffer, BufferComparison, CompareOptions, Content, Side, compare_with, exchanged_sides,
 };
 use bothways::diff::page::{Group, Page};
 use bothways::diff::why::{
@@ -81,6 +81,8 @@ pub(super) struct Why<'a> {
     camera: &'a Camera,
     /// Samples along a side of a pixel. If there are several, each counts as a pixel in what follows.
     samples: u32,
+    /// Whether A and B are pictures, of which coverage alone is held against the scene.
+    are_pictures: [bool; 2],
     /// Whether one of the files covers nothing.
     has_empty_file: bool,
     /// The scene and the camera's options, as they were given: what `bothways pixel` needs.
@@ -114,9 +116,19 @@ impl<'a> Why<'a> {
                 reasons.explained_by(side, &found[0]);
             }
         }
+        let is_picture = |file: &Buffer| matches!(file.content(), Content::Picture(_));
+        let are_pictures = [a, b].map(is_picture);
         let coverage = comparison.coverage;
         let has_empty_file = coverage.is_some_and(|covered| covered.a.min(covered.b) == 0);
-        Why { camera: view.camera, samples, has_empty_file, scene, conventions, reasons }
+        Why {
+            camera: view.camera,
+            samples,
+            are_pictures,
+            has_empty_file,
+            scene,
+            conventions,
+            reasons,
+        }
     }
 
     /// The report as text: reasons, conventions, and the next step.
@@ -155,9 +167,14 @@ impl<'a> Why<'a> {
 
     /// Whether the scene explains neither file: what both look like beside each other may say more.
     pub(super) fn explains_nothing(&self) -> bool {
-        let explains =
-            |found: &Findings| !matches!(found.finding, Finding::True | Finding::Unexplained(_));
-        !self.conventions.iter().flatten().any(explains)
+        let explains = |(found, is_picture): (&Findings, bool)| match found.finding {
+            Finding::True | Finding::Unexplained(_) => false,
+            // The colours of a picture may say what its coverage does not.
+            Finding::NoEvidence(_) => !is_picture,
+            Finding::Rounded | Finding::Explained(_) => true,
+        };
+        let found = self.conventions.iter().zip(self.are_pictures);
+        !found.filter_map(|(found, is)| Some((found.as_ref().ok()?, is))).any(explains)
     }
 
     /// The pixel of a sample.
@@ -215,6 +232,12 @@ impl<'a> Why<'a> {
         let things = self.things();
         let wrong = count(*differing, things);
         match finding {
+            Finding::True if self.are_pictures[usize::from(name == "B")] => line(
+                text,
+                format_args!(
+                    "{name} covers what the scene does in all {all} {things}; its colours are not held against the scene"
+                ),
+            ),
             Finding::True => line(
                 text,
                 format_args!("{name} shows what is true of the scene in all {all} {things}"),

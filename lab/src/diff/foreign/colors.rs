@@ -2,7 +2,7 @@
 
 use crate::common::look::color::linear_from_encoded;
 use crate::diff::aspect::Side;
-use crate::diff::buffer::{Buffer, Content, bytes};
+use crate::diff::buffer::{Buffer, Content, Covered, bytes};
 use crate::diff::buffer_pair::BufferPair;
 
 /// Every mistake in writing colours that alone explains every difference, one sentence each. A reference is right.
@@ -104,7 +104,7 @@ fn are_exchanged(a: &Buffer, b: &Buffer, tolerance: f64) -> bool {
 fn every_color(a: &Buffer, b: &Buffer, mut holds: impl FnMut([u8; 3], [u8; 3]) -> bool) -> bool {
     let [width, height] = a.size();
     let color = |buffer: &Buffer, pixel: [u32; 2]| {
-        buffer.color(pixel).map(|([red, green, blue, _], _)| bytes([red, green, blue]))
+        written(buffer, pixel).map(|[red, green, blue, _]| bytes([red, green, blue]))
     };
     let mut pixels = (0..height).flat_map(move |i| (0..width).map(move |j| [i, j]));
     pixels.all(|pixel| match [a, b].map(|buffer| color(buffer, pixel)) {
@@ -112,6 +112,17 @@ fn every_color(a: &Buffer, b: &Buffer, mut holds: impl FnMut([u8; 3], [u8; 3]) -
         [None, None] => true,
         _ => false,
     })
+}
+
+/// The colour of a pixel, also that of the background: a mistake in writing colours changes both. None where alpha, or black, says
+/// that there is nothing.
+fn written(buffer: &Buffer, pixel: [u32; 2]) -> Option<[f32; 4]> {
+    match buffer.content() {
+        Content::Picture(picture) if matches!(picture.covered, Covered::ByBackground(_)) => {
+            Some(picture.pixels.get(buffer.pixel(pixel)))
+        }
+        _ => buffer.color(pixel).map(|(color, _)| color),
+    }
 }
 
 #[cfg(test)]
@@ -169,6 +180,22 @@ mod tests {
         let greys = |from: u8| picture((from..from + 50).map(|k| [k; 3]).collect());
         let found = compare(&greys(0), &greys(20)).unwrap().hints;
         assert!(!found.iter().any(|one| one.contains("red")), "{found:?}");
+    }
+
+    #[test]
+    fn exchanged_channels_are_named_beside_a_background_that_is_exchanged_too() {
+        let colors: Vec<[u8; 3]> = (0..60).map(|k| [k, 200 - k, k / 2]).collect();
+        let with_background = |background: [u8; 3], exchange: bool| {
+            let with = |[r, g, b]: [u8; 3]| if exchange { [b, g, r, 255] } else { [r, g, b, 255] };
+            let pixels = colors.iter().chain([&background; 4]).map(|&color| with(color)).collect();
+            let covered = Covered::ByBackground(background);
+            let picture = Picture { pixels: Pixels::Bytes(pixels), covered };
+            Buffer::new([64, 1], 1, Content::Picture(picture))
+        };
+        let background = [16, 20, 24];
+        let [one, other] = [false, true].map(|exchange| with_background(background, exchange));
+        let found = compare(&one, &other).unwrap().hints;
+        assert!(found.iter().any(|one| one.starts_with("red and blue are exchanged")), "{found:?}");
     }
 
     #[test]

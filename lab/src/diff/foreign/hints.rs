@@ -3,6 +3,7 @@
 //! A hint is given only if its cause alone explains every difference. If several causes do, all hints are given: a
 //! symmetric picture that is upside down may look like a picture that is moved.
 
+use super::bands::unfinished;
 use super::colors;
 use super::placements::placements;
 use crate::diff::aspect::Side;
@@ -30,6 +31,7 @@ pub(in crate::diff) fn hints(
         return hints;
     }
     hints.extend(colors::encodings(pair, reference));
+    hints.extend(unfinished(pair, differing));
     let named = [("A", pair.a, "B", pair.b), ("B", pair.b, "A", pair.a)];
     if let (Content::Ids(a), Content::Ids(b)) = (pair.a.content(), pair.b.content()) {
         hints.extend(renaming(a, b).map(|renaming| {

@@ -7,10 +7,16 @@ use super::observed::{Observed, Values};
 use super::rays::ViewingRays;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Projection, View};
+use crate::diff::buffer::{Buffer, Content, Covered};
 use std::collections::HashSet;
 
 /// Why the file cannot tell conventions, if it cannot.
-pub(super) fn no_evidence(view: &View, observed: &Observed, truth: &Drawn) -> Option<String> {
+pub(super) fn no_evidence(
+    view: &View,
+    file: &Buffer,
+    observed: &Observed,
+    truth: &Drawn,
+) -> Option<String> {
     let pixels = truth.ids.len() as u64;
     let covered = observed.covered_count(NothingEncoding::Ours);
     let seen = truth.ids.iter().filter(|&&id| id != NO_PRIMITIVE).count();
@@ -27,13 +33,19 @@ pub(super) fn no_evidence(view: &View, observed: &Observed, truth: &Drawn) -> Op
             "every pixel that it covers holds the number {number}, though several objects are seen: are its ids written?"
         ))
     } else if matches!(observed.values, Values::Mask(_)) && covered == pixels {
-        Some(
-            "the mask covers every pixel, and so says nothing about conventions; compare ids"
-                .into(),
-        )
+        Some(match has_background(file) {
+            true => "no pixel has the colour of the background: is it another colour there, or are red and blue exchanged?",
+            false => "the mask covers every pixel, and so says nothing about conventions; compare ids",
+        }.into())
     } else {
         None
     }
+}
+
+/// Whether the colour of its background tells what a picture covers.
+fn has_background(file: &Buffer) -> bool {
+    let Content::Picture(picture) = file.content() else { return false };
+    matches!(picture.covered, Covered::ByBackground(_))
 }
 
 /// The number that a file of ids holds wherever it covers something, if several objects are seen there, and it is no id, or the

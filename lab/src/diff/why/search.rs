@@ -128,7 +128,7 @@ impl Search<'_> {
         if differing == 0 {
             return Finding::True;
         }
-        if let Some(reason) = no_evidence(self.view, self.observed, self.truth) {
+        if let Some(reason) = no_evidence(self.view, self.file, self.observed, self.truth) {
             return Finding::NoEvidence(reason);
         }
         let placed = self.ours_in_place();
