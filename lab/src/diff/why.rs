@@ -17,6 +17,7 @@ mod evidence;
 mod expected;
 mod finding;
 mod fit;
+mod layout;
 mod missing;
 mod near;
 mod numbering;
@@ -43,6 +44,7 @@ pub use convention::{
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use finding::{Explanation, Finding, Findings};
+pub use layout::Layout;
 pub use missing::{Missing, Scattered};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};
 pub use reason::{Reason, ReasonKind, TieRules};

@@ -2,6 +2,7 @@
 
 use super::convention::{Change, Convention};
 use super::encoding::{Encoding, IdEncoding};
+use super::layout::Layout;
 use super::missing::Missing;
 
 /// What a search found.
@@ -41,6 +42,8 @@ pub struct Explanation {
     pub encoding: Encoding,
     /// Primitives that are missing, and in whose absence those behind them have smaller ids; mostly none.
     pub missing: Vec<Missing>,
+    /// Where its numbers lie in a buffer, if not row by row.
+    pub layout: Option<Layout>,
     /// The number of differing pixels that are as expected under these conventions.
     pub explained: u64,
     /// The number of pixels that differ under these conventions, too.
@@ -58,6 +61,7 @@ impl Explanation {
     /// Whether the explanation moves much of the picture, rather than a few samples on edges, or nearly so, or at equal distances.
     pub fn is_coarse(&self) -> bool {
         !self.missing.is_empty()
+            || self.layout.is_some()
             || !self.encoding.is_ours()
             || self.convention.changes().into_iter().any(Change::is_coarse)
     }

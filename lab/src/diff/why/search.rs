@@ -139,10 +139,10 @@ impl Search<'_> {
         finalists = self.improved(finalists, ours, placed.convention);
         finalists.sort_by_key(Candidate::rank);
         let mut explanations = self.best(&self.credible(finalists), ours);
-        if let Some(missing) = self.missing()
-            && explanations.first().is_none_or(|best| missing.is_better_than(best))
-        {
-            explanations = vec![missing];
+        for other in [self.missing(), self.layout()].into_iter().flatten() {
+            if explanations.first().is_none_or(|best| other.is_better_than(best)) {
+                explanations = vec![other];
+            }
         }
         match explanations.first() {
             Some(best) if best.explained * 4 >= differing => Finding::Explained(explanations),

@@ -1,6 +1,7 @@
 //! Conventions in sentences that a student can act on.
 
 mod camera;
+mod layout;
 mod missing;
 mod omission;
 mod stance;
@@ -14,6 +15,7 @@ use super::finding::Explanation;
 use crate::common::{Camera, Projection};
 use crate::wording::{readable, three_digits};
 use camera::{of_fields, of_framing, of_pose};
+use layout::of_layout;
 use missing::of_missing;
 use omission::{of_far, of_near, of_omission};
 
@@ -25,6 +27,7 @@ impl Explanation {
         if !self.missing.is_empty() {
             parts.push(of_missing(&self.missing));
         }
+        parts.extend(self.layout.map(|layout| of_layout(layout, camera.image())));
         parts.iter().map(|part| with_name(part, name)).collect()
     }
 }

@@ -3,6 +3,7 @@
 mod blank;
 mod credible;
 mod framing;
+mod layout;
 mod missing;
 mod stance;
 mod stance_of_distances;

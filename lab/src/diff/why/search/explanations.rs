@@ -7,6 +7,7 @@ use crate::diff::why::drawn::Rows;
 use crate::diff::why::encoding::Encoding;
 use crate::diff::why::expected::{Expected, Score};
 use crate::diff::why::finding::Explanation;
+use crate::diff::why::layout::layout;
 use crate::diff::why::missing::{Renumbered, renumbered};
 use crate::diff::why::observed::Values;
 
@@ -52,6 +53,7 @@ impl Search<'_> {
             convention,
             encoding,
             missing: Vec::new(),
+            layout: None,
             explained: differing.saturating_sub(score.differing),
             remaining: score.differing,
             pixels: self.explained(candidate),
@@ -65,17 +67,32 @@ impl Search<'_> {
             return None;
         }
         let Renumbered { missing, differs } = renumbered(self.view, self.truth, ids)?;
+        Some(Explanation { missing, ..self.by_our_conventions(&differs) })
+    }
+
+    /// Where the numbers of a file lie in a buffer, if that explains nearly all of it.
+    pub(super) fn layout(&self) -> Option<Explanation> {
+        if !self.placements.contains(&Placement::Upright) {
+            return None;
+        }
+        let (found, differs) = layout(self.truth, self.observed)?;
+        Some(Explanation { layout: Some(found), ..self.by_our_conventions(&differs) })
+    }
+
+    /// What is explained where a file with our conventions differs only at these pixels.
+    fn by_our_conventions(&self, differs: &[bool]) -> Explanation {
         let remaining = differs.iter().filter(|&&differs| differs).count() as u64;
         let mut explained = self.differing_by_ours();
-        explained.iter_mut().zip(&differs).for_each(|(wrong, differs)| *wrong &= !differs);
-        Some(Explanation {
+        explained.iter_mut().zip(differs).for_each(|(wrong, differs)| *wrong &= !differs);
+        Explanation {
             convention: Convention::default(),
             encoding: Encoding::default(),
-            missing,
+            missing: Vec::new(),
+            layout: None,
             explained: self.ours.differing.saturating_sub(remaining),
             remaining,
             pixels: self.pixels(&explained),
-        })
+        }
     }
 
     /// The pixels that differ under our conventions, and not under these.
