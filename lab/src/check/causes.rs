@@ -1,8 +1,9 @@
 //! Why files of a renderer are wrong: conventions that explain many of them at once, then the reasons of the pixels of each.
 
 use super::found::{Cause, Certainty, CheckedFile};
+use super::truth;
 use crate::common::{Camera, Scene, View};
-use crate::diff::foreign::{Buffer, CompareOptions, compare_with};
+use crate::diff::foreign::{Aspect, Buffer, CompareOptions, Content, compare_with, ids_of_floats};
 use crate::diff::why::{
     Change, CommonExplanation, ReasonKind, Rendering, camera_of_samples, find_common_conventions,
     find_reasons_of_samples,
@@ -18,7 +19,9 @@ pub(super) fn find(files: &[CheckedFile], scenes: &[(Scene, Camera)]) -> Vec<Cau
         return Vec::new();
     }
     let views: Vec<View> = looks.iter().map(|look| View::new(look.scene, &look.camera)).collect();
+    let (of_floats, wrong) = ids_as_floats(&looks, &views, wrong);
     let (mut causes, left) = common(&looks, &views, wrong);
+    causes.extend(of_floats);
     for at in left {
         let Some((sentence, certainty)) = looks[at].of_pixels(&views[at]) else { continue };
         let file = looks[at].file;
@@ -37,6 +40,34 @@ pub(super) fn find(files: &[CheckedFile], scenes: &[(Scene, Camera)]) -> Vec<Cau
         (cause.certainty == Certainty::Unknown, std::cmp::Reverse(cause.files.len()))
     });
     causes
+}
+
+/// The cause of files whose distances are ids, and the other files that are wrong. One number alone tells little: the files must be
+/// most of those that hold distances, and one of them must show several ids.
+fn ids_as_floats(looks: &[Look], views: &[View], wrong: Vec<usize>) -> (Option<Cause>, Vec<usize>) {
+    let holds_distances = |at: &&usize| looks[**at].theirs.tells(Aspect::T);
+    let all = wrong.iter().filter(holds_distances).count();
+    let meant = |at: usize| ids_of_floats(&looks[at].theirs, &looks[at].true_ids(&views[at])?);
+    let ids: Vec<Option<Buffer>> = wrong.iter().map(|&at| meant(at)).collect();
+    let are_several = |ids: &Buffer| {
+        let Content::Ids(ids) = ids.content() else { return false };
+        let mut shown = ids.iter().flatten();
+        shown.next().is_some_and(|first| shown.any(|id| id != first))
+    };
+    let found = ids.iter().flatten().count();
+    if 2 * found <= all || !ids.iter().flatten().any(are_several) {
+        return (None, wrong);
+    }
+    let (of_ids, left): (Vec<_>, Vec<_>) =
+        wrong.into_iter().zip(&ids).partition(|(_, ids)| ids.is_some());
+    let sentence = "it saves ids as floating-point numbers, which are read as distances: save them as integers \
+                    (astype('uint32'))";
+    let cause = Cause {
+        alternatives: vec![vec![sentence.into()]],
+        certainty: Certainty::Reason,
+        files: of_ids.into_iter().map(|(at, _)| looks[at].file).collect(),
+    };
+    (Some(cause), left.into_iter().map(|(at, _)| at).collect())
 }
 
 /// The cause that many of the wrong files have in common, if there is one, and the files that it leaves.
@@ -107,6 +138,16 @@ impl<'a> Look<'a> {
             truth: truth.map(by_sample),
             is_right,
         })
+    }
+
+    /// The ids of the exact picture, for a file of distances.
+    fn true_ids(&self, view: &View) -> Option<Buffer<'static>> {
+        let is_of_distances = self.truth.is_some() && self.theirs.tells(Aspect::T);
+        is_of_distances.then_some(())?;
+        let [width, height] = self.theirs.size();
+        let ids = vec![None; width as usize * height as usize];
+        let like = Buffer::new([width, height], 1, Content::Ids(ids));
+        truth(view, &like).ok()
     }
 
     /// The reason of most differing pixels; `None` for a file of another size, which says itself why it is wrong.

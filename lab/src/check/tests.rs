@@ -213,6 +213,23 @@ fn arrays<T: npyz::AutoSerialize + Copy>(draw: impl Fn(&Vector) -> Vec<T>) -> Te
 }
 
 #[test]
+fn ids_that_are_saved_as_floats_are_named_as_such() {
+    for nothing in [-1.0, f64::INFINITY] {
+        let checked = checked(&arrays(|vector| {
+            let frame = frame(vector, vector.camera, None);
+            let number =
+                |id: Option<u64>| id.map_or(nothing, |id| f64::from(u32::try_from(id).unwrap()));
+            frame.ids().iter().map(number).collect()
+        }));
+        let (alternatives, certainty, files) = first_cause(&checked);
+        let said = &alternatives[0][0];
+        assert!(said.starts_with("it saves ids as floating-point numbers"), "{said}");
+        // Where nothing is seen, there are no ids.
+        assert!(certainty == Certainty::Reason && files + 5 > checked.files.len(), "{files}");
+    }
+}
+
+#[test]
 fn distances_in_another_unit_are_named_as_such() {
     let far = |vector: &Vector, map: fn(f64) -> f64| {
         let frame = frame(vector, vector.camera, None);

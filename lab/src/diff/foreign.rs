@@ -19,6 +19,7 @@ mod bands;
 mod channels;
 mod colors;
 mod depth;
+mod float_ids;
 mod hints;
 mod normals;
 mod npy;
@@ -35,12 +36,15 @@ pub use super::compare::{
     Incomparable,
 };
 pub use depth::{Depth, DepthError};
+pub use float_ids::ids_of_floats;
 pub use placements::exchanged_sides;
 pub use read::{ReadBufferError, read, read_from, read_with};
 pub use read_buffer::{ReadBuffer, ReadOptions};
 
 pub use super::measures::{BorderDistance, ColorMeasures, CoverageMeasures, Measures};
 pub use super::tolerance::{CompareOptions, Tolerances};
+
+pub(super) use float_ids::{are_many, whole_numbers};
 
 use super::buffer_pair::{BufferPair, Decides};
 use super::measures;

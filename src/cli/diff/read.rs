@@ -4,7 +4,9 @@ use super::args::DiffArgs;
 use super::inputs::{InputArgs, scene_of_size};
 use crate::cli::failure::Failure;
 use bothways::common::Camera;
-use bothways::diff::foreign::{self, Buffer, Content, Depth, ReadBuffer, ReadOptions};
+use bothways::diff::foreign::{
+    self, Buffer, Content, Depth, ReadBuffer, ReadOptions, ids_of_floats,
+};
 use bothways::formats::source::quote::visible;
 use std::path::{Path, PathBuf};
 
@@ -91,7 +93,24 @@ pub(super) fn read_pair(
             None => {}
         }
     }
+    // Who says what distances mean says that they are distances.
+    if depth.is_empty() {
+        read_as_ids(&mut a, &b.buffer);
+        read_as_ids(&mut b, &a.buffer);
+    }
     Ok([a, b])
+}
+
+/// Takes floating-point numbers for ids where the other file has ids, and they look like some.
+fn read_as_ids(file: &mut ReadFile, other: &Buffer<'static>) {
+    let Some(ids) = ids_of_floats(&file.buffer, other) else { return };
+    file.buffer = ids;
+    file.notes.push("floating-point numbers, read as ids".into());
+    file.warnings.push(
+        "these numbers look like ids saved as floating-point numbers, and are read as ids; save them as integers \
+         (astype('uint32')), or give --depth t if they are distances"
+            .into(),
+    );
 }
 
 /// Makes `t` of a file's distances.

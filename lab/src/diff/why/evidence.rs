@@ -8,6 +8,7 @@ use super::rays::ViewingRays;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Projection, View};
 use crate::diff::buffer::{Buffer, Content, Covered};
+use crate::diff::foreign::{are_many, whole_numbers};
 use std::collections::HashSet;
 
 /// Why the file cannot tell conventions, if it cannot.
@@ -20,7 +21,13 @@ pub(super) fn no_evidence(
     let pixels = truth.ids.len() as u64;
     let covered = observed.covered_count(NothingEncoding::Ours);
     let seen = truth.ids.iter().filter(|&&id| id != NO_PRIMITIVE).count();
-    if covered == 0 {
+    if are_ids(observed, truth) {
+        Some(
+            "all its numbers are whole, as of ids that are saved as floating-point numbers: save them as integers \
+             (astype('uint32'))"
+                .into(),
+        )
+    } else if covered == 0 {
         Some(
             "the file covers nothing, as where a renderer looks the other way (along +w) or from another place, culls or \
              clips everything, never hits, or clears its depth buffer to 0, so that nothing is ever nearer"
@@ -40,6 +47,14 @@ pub(super) fn no_evidence(
     } else {
         None
     }
+}
+
+/// Whether a file of distances has many whole numbers alone, where hardly a true distance is one.
+fn are_ids(observed: &Observed, truth: &Drawn) -> bool {
+    let Values::Distances(numbers) = &observed.values else { return false };
+    let seen = || truth.t.iter().filter(|t| t.is_finite());
+    let whole = seen().filter(|t| t.fract() == 0.0).count();
+    8 * whole <= seen().count() && whole_numbers(numbers).is_some_and(|ids| are_many(&ids))
 }
 
 /// Whether the colour of its background tells what a picture covers.
