@@ -104,6 +104,9 @@ const FEW: u64 = 50;
 /// The same where a contour alone tells another size or place.
 const FEW_BY_CONTOUR: u64 = 1000;
 
+/// Fewer wrong pixels tell no place.
+const FEWEST_OF_PLACE: u64 = 4;
+
 /// The most explanations that are named.
 const MOST_EXPLANATIONS: usize = 6;
 
@@ -153,7 +156,9 @@ impl Search<'_> {
     /// What all differing pixels show, or should show.
     fn place(&self) -> Option<String> {
         let is_upright = self.placements.contains(&Placement::Upright);
-        is_upright.then(|| common_place(self.view, self.observed, self.truth))?
+        // A few pixels lie on one thing by accident.
+        let tells = is_upright && self.ours.differing >= FEWEST_OF_PLACE;
+        tells.then(|| common_place(self.view, self.observed, self.truth))?
     }
 
     /// The rows by which hypotheses are judged first.
