@@ -94,10 +94,10 @@ mod tests {
     use bothways_common::{Instances, Mesh, Placement, Scene, Shape, Sphere};
 
     /// A strip of triangles; `step` is from one triangle of the file to the next in the strip.
-    fn strip(count: u32, step: u32) -> Mesh {
-        let positions: Vec<Vec3> = (0..count + 2)
-            .map(|k| Vec3::new(f32::from(k as u16), f32::from((k % 2) as u16), -3.0))
-            .collect();
+    fn strip(count: u16, step: u32) -> Mesh {
+        let positions: Vec<Vec3> =
+            (0..count + 2).map(|k| Vec3::new(f32::from(k), f32::from(k % 2), -3.0)).collect();
+        let count = u32::from(count);
         let triangles = (0..count).map(|k| k * step % count).map(|k| [k, k + 1, k + 2]).collect();
         Mesh::new(positions, triangles).expect("it is a mesh")
     }
