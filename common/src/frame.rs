@@ -253,9 +253,14 @@ impl Frame {
         self.region.rows.len()
     }
 
-    /// Where a sample is kept.
+    /// Where a sample is kept. Panics if the frame does not hold it: without a look at the column, the answer would be that
+    /// of a sample in another row.
     fn index(&self, row: usize, column: usize) -> usize {
-        debug_assert!(self.region.rows.contains(&row) && self.region.columns.contains(&column));
+        let Region { rows, columns } = &self.region;
+        assert!(
+            rows.contains(&row) && columns.contains(&column),
+            "the frame has no sample ({row}, {column}): it holds rows {rows:?} and columns {columns:?}"
+        );
         (row - self.region.rows.start) * self.width() + column - self.region.columns.start
     }
 
@@ -263,11 +268,19 @@ impl Frame {
     ///
     /// Here and in [`Frame::t`] and [`Frame::set`], row and column are those of the whole image's raster, and must lie
     /// in [`Frame::region`].
+    ///
+    /// # Panics
+    ///
+    /// If the frame does not hold the sample.
     pub fn id(&self, row: usize, column: usize) -> Option<u64> {
         self.ids().get(self.index(row, column))
     }
 
     /// The distance `t` of what is seen at a sample, in lengths of the viewing ray's direction; `None` for nothing.
+    ///
+    /// # Panics
+    ///
+    /// If the frame does not hold the sample.
     pub fn t(&self, row: usize, column: usize) -> Option<f32> {
         let index = self.index(row, column);
         self.ids().get(index).map(|_| self.t[index])
@@ -277,7 +290,7 @@ impl Frame {
     ///
     /// # Panics
     ///
-    /// If the frame has no room for ids that are so wide.
+    /// If the frame does not hold the sample, or has no room for ids that are so wide.
     pub fn set(&mut self, row: usize, column: usize, id: u64, t: f64) {
         let index = self.index(row, column);
         self.ids.set(index, id);
@@ -327,6 +340,10 @@ impl Frame {
     }
 
     /// The indices of a pixel's samples, in [`Frame::ids`] and the other buffers.
+    ///
+    /// # Panics
+    ///
+    /// If the frame does not hold the pixel `(i, j)`.
     pub fn samples_of(&self, i: usize, j: usize) -> impl Iterator<Item = usize> + use<> {
         let (n, width) = (self.samples() as usize, self.width());
         let first = self.index(i * n, j * n);
@@ -462,6 +479,54 @@ mod tests {
             Frame::new(&Camera::canonical(2, 3), &Options { samples: 2, ..Options::default() });
         let samples: Vec<_> = frame.samples_of(1, 2).collect();
         assert_eq!(samples, [16, 17, 22, 23]);
+    }
+
+    #[test]
+    #[should_panic(
+        expected = "the frame has no sample (1, 4): it holds rows 0..3 and columns 0..4"
+    )]
+    fn a_column_too_far_is_not_the_first_of_the_next_row() {
+        let frame = Frame::new(&Camera::canonical(3, 4), &Options::default());
+        let _ = frame.id(1, 4);
+    }
+
+    #[test]
+    fn a_pixel_finds_its_samples() {
+        let frame =
+            Frame::new(&Camera::canonical(2, 3), &Options { samples: 2, ..Options::default() });
+        let samples: Vec<_> = frame.samples_of(1, 2).collect();
+        assert_eq!(samples, [16, 17, 22, 23]);
+    }
+
+    #[test]
+    #[should_panic(
+        expected = "the frame has no sample (1, 4): it holds rows 0..3 and columns 0..4"
+    )]
+    fn a_column_too_far_is_not_the_first_of_the_next_row() {
+        let frame = Frame::new(&Camera::canonical(3, 4), &Options::default());
+        let _ = frame.id(1, 4);
+    }
+
+    #[test]
+    fn options_are_checked_before_a_frame_is_made() {
+        let image = [5, 3];
+        assert_eq!(Options::default().check(image), Ok(()));
+        let message = |options: Options| options.check(image).unwrap_err().to_string();
+        let none = message(Options { samples: 0, crop: None });
+        assert_eq!(none, "a pixel has 0x0 samples; give at least 1");
+        let many = message(Options { samples: 70_000, crop: None });
+        assert!(many.starts_with("the image is 5x3 with 70000x70000 samples a pixel"), "{many}");
+        let crop = Some(Crop { row: 2, column: 0, height: 2, width: 5 });
+        let outside = message(Options { samples: 1, crop });
+        assert!(outside.starts_with("the crop 2,0,2,5 ends at pixel (3, 4)"), "{outside}");
+    }
+
+    #[test]
+    #[should_panic(
+        expected = "no frame has these options: a pixel has 0x0 samples; give at least 1"
+    )]
+    fn a_frame_without_samples_is_refused_for_what_it_lacks() {
+        let _ = Frame::new(&Camera::canonical(3, 5), &Options { samples: 0, crop: None });
     }
 
     #[test]
