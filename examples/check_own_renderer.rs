@@ -3,7 +3,7 @@
 //! The renderer under test is wrong on purpose: its triangles own all of their edges (`>= 0`), and the
 //! last one drawn wins. `cargo run --example check_own_renderer`
 
-use bothways::common::{Camera, Options, Scene, Shape, Triangle, View, glam::Vec3};
+use bothways::common::{Camera, Options, Scene, Triangle, View, glam::Vec3};
 use bothways::rasterize;
 
 /// A square of two triangles whose edges run through samples, in pixels: x right, y down.
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let in_world = |[x, y]: [f32; 2]| Vec3::new(x - 8.0, 8.0 - y, -16.0);
     let objects = TRIANGLES.map(|corners| {
         let [a, b, c] = corners.map(in_world);
-        Shape::Triangle(Triangle { a, b, c }).into()
+        Triangle { a, b, c }.into()
     });
     let scene = Scene::new(objects.to_vec())?;
     let trusted = rasterize::textbook::render(&View::new(&scene, &camera), &Options::default());

@@ -3,7 +3,7 @@
 //! `cargo run --example one_triangle`
 
 use bothways::common::glam::Vec3;
-use bothways::common::{Camera, Frame, Options, Scene, Shape, Triangle, View};
+use bothways::common::{Camera, Frame, Options, Scene, Triangle, View};
 use bothways::orders::Order;
 use bothways::{diff, rasterize, raytrace};
 
@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let camera = Camera::canonical(SIDE.into(), SIDE.into());
     let depth = -f32::from(SIDE);
     let [a, b, c] = [[-7.0, -6.0], [7.0, -3.0], [-1.0, 7.0]].map(|[x, y]| Vec3::new(x, y, depth));
-    let scene = Scene::new(vec![Shape::Triangle(Triangle { a, b, c }).into()])?;
+    let scene = Scene::new(vec![Triangle { a, b, c }.into()])?;
     let view = View::new(&scene, &camera);
 
     let object_order = rasterize::textbook::render(&view, &Options::default());

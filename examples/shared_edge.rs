@@ -7,7 +7,7 @@
 
 use bothways::common::exact::{EdgeSigns, Sign};
 use bothways::common::glam::Vec3;
-use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, View, Work};
+use bothways::common::{Camera, Frame, Object, Options, Scene, Triangle, View, Work};
 use bothways::raytrace;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -16,8 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let square = [[3.5, 3.5], [11.5, 3.5], [11.5, 11.5], [3.5, 11.5]];
     let [a, b, c, d] = square.map(|[x, y]| Vec3::new(x - 8.0, 8.0 - y, -16.0));
     let halves = [Triangle { a, b, c }, Triangle { a, b: c, c: d }];
-    let halves = halves.map(|half| Object::from(Shape::Triangle(half)));
-    let scene = Scene::new(halves.to_vec())?;
+    let scene = Scene::new(halves.map(Object::from).to_vec())?;
     let view = View::new(&scene, &camera);
 
     // The loops tell an observer what they do. `Work` is an observer that counts.

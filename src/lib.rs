@@ -37,10 +37,10 @@
 //! that gives the same answers:
 //!
 //! ```
-//! use bothways::common::{Camera, Object, Options, Scene, Shape, Sphere, View, glam::Vec3};
+//! use bothways::common::{Camera, Object, Options, Scene, Sphere, View, glam::Vec3};
 //! use bothways::{rasterize, raytrace};
 //!
-//! let ball = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -3.0), radius: 1.0 });
+//! let ball = Sphere { center: Vec3::new(0.0, 0.0, -3.0), radius: 1.0 };
 //! let scene = Scene::new(vec![Object::from(ball)])?;
 //! let camera = Camera::canonical(32, 32);
 //! let view = View::new(&scene, &camera);

@@ -4,9 +4,9 @@
 //! `bothways-raytrace` (image order). Both know this crate, and neither knows the other.
 //!
 //! ```
-//! use bothways_common::{Camera, Object, Scene, Shape, Sphere, View, glam::Vec3};
+//! use bothways_common::{Camera, Object, Scene, Sphere, View, glam::Vec3};
 //!
-//! let ball = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -3.0), radius: 1.0 });
+//! let ball = Sphere { center: Vec3::new(0.0, 0.0, -3.0), radius: 1.0 };
 //! let scene = Scene::new(vec![Object::from(ball)])?;
 //! let camera = Camera::canonical(3, 3);
 //! let view = View::new(&scene, &camera);

@@ -54,6 +54,41 @@ impl From<Shape> for Object {
     }
 }
 
+impl From<Triangle> for Object {
+    /// An object of the default material.
+    fn from(triangle: Triangle) -> Self {
+        Shape::from(triangle).into()
+    }
+}
+
+impl From<Sphere> for Object {
+    /// An object of the default material.
+    fn from(sphere: Sphere) -> Self {
+        Shape::from(sphere).into()
+    }
+}
+
+impl From<Plane> for Object {
+    /// An object of the default material.
+    fn from(plane: Plane) -> Self {
+        Shape::from(plane).into()
+    }
+}
+
+impl From<Mesh> for Object {
+    /// An object of the default material.
+    fn from(mesh: Mesh) -> Self {
+        Shape::from(mesh).into()
+    }
+}
+
+impl From<Instances> for Object {
+    /// An object of the default material.
+    fn from(instances: Instances) -> Self {
+        Shape::from(instances).into()
+    }
+}
+
 /// Everything there is to see, with ids for all primitives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {

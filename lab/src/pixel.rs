@@ -126,9 +126,9 @@ impl SampleReport {
 /// If the image has no such pixel, or [`check_samples`](crate::common::raster::check_samples) refuses the options.
 ///
 /// ```
-/// use bothways_lab::common::{Camera, Options, Scene, Shape, Sphere, View, glam::Vec3};
+/// use bothways_lab::common::{Camera, Options, Scene, Sphere, View, glam::Vec3};
 ///
-/// let ball = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 });
+/// let ball = Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 };
 /// let (scene, camera) = (Scene::new(vec![ball.into()])?, Camera::canonical(5, 5));
 /// let report = bothways_lab::pixel::report(&View::new(&scene, &camera), &Options::default(), 2, 2);
 /// assert_eq!(report[0].covering[0].t, 3.0);

@@ -7,12 +7,12 @@
 //!
 //! ```
 //! use bothways_raytrace::common::glam::Vec3;
-//! use bothways_raytrace::common::{Camera, Options, Scene, Shape, Sphere, View, Work};
+//! use bothways_raytrace::common::{Camera, Options, Scene, Sphere, View, Work};
 //! use bothways_raytrace::fast::{self, WorldRay};
 //! use bothways_raytrace::{shade, textbook};
 //!
 //! // A scene, a camera, and both together.
-//! let sphere = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 });
+//! let sphere = Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 };
 //! let scene = Scene::new(vec![sphere.into()])?;
 //! let camera = Camera::canonical(5, 5);
 //! let (view, options) = (View::new(&scene, &camera), Options::default());

@@ -6,13 +6,13 @@
 //!
 //! ```
 //! use bothways_rules::common::glam::Vec3;
-//! use bothways_rules::common::{Camera, Options, Scene, Shape, Triangle, View};
+//! use bothways_rules::common::{Camera, Options, Scene, Triangle, View};
 //! use bothways_rules::{image_order, object_order};
 //!
 //! // Two triangles that share a diagonal, which runs exactly through the samples of a 4 x 4 picture.
 //! let [a, b, c, d] = [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]
 //!     .map(|[x, y]| Vec3::new(x, y, -2.0));
-//! let half = |a, b, c| Shape::Triangle(Triangle { a, b, c }).into();
+//! let half = |a, b, c| Triangle { a, b, c }.into();
 //! let scene = Scene::new(vec![half(a, b, c), half(a, c, d)])?;
 //! let camera = Camera::canonical(4, 4);
 //! let (view, options) = (View::new(&scene, &camera), Options::default());

@@ -69,6 +69,30 @@ impl Shape {
     }
 }
 
+impl From<Triangle> for Shape {
+    fn from(triangle: Triangle) -> Self {
+        Shape::Triangle(triangle)
+    }
+}
+
+impl From<Sphere> for Shape {
+    fn from(sphere: Sphere) -> Self {
+        Shape::Sphere(sphere)
+    }
+}
+
+impl From<Plane> for Shape {
+    fn from(plane: Plane) -> Self {
+        Shape::Plane(plane)
+    }
+}
+
+impl From<Mesh> for Shape {
+    fn from(mesh: Mesh) -> Self {
+        Shape::Mesh(mesh)
+    }
+}
+
 impl From<Instances> for Shape {
     fn from(instances: Instances) -> Self {
         Shape::Instances(instances)

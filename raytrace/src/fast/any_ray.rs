@@ -72,10 +72,10 @@ impl WorldRay {
 /// finite, or its direction is zero.
 ///
 /// ```
-/// use bothways_raytrace::common::{Scene, Shape, Sphere, glam::Vec3};
+/// use bothways_raytrace::common::{Scene, Sphere, glam::Vec3};
 /// use bothways_raytrace::fast::{self, WorldRay};
 ///
-/// let sphere = Shape::Sphere(Sphere { center: Vec3::new(5.0, 0.0, 0.0), radius: 2.0 });
+/// let sphere = Sphere { center: Vec3::new(5.0, 0.0, 0.0), radius: 2.0 };
 /// let scene = Scene::new(vec![sphere.into()])?;
 /// let prepared = fast::prepare(&scene);
 /// let to_the_right = WorldRay { origin: Vec3::ZERO, direction: Vec3::X };
