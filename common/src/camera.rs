@@ -171,7 +171,7 @@ impl Camera {
             image: [width, height],
             ..CameraDescription::default()
         };
-        Camera::new(description).expect("the size is within the limits")
+        Camera::new(description).unwrap_or_else(|error| panic!("there is no such camera: {error}"))
     }
 
     /// What this camera was made from.
@@ -249,7 +249,8 @@ impl Camera {
     ///
     /// If [`check_samples`] refuses the number of samples.
     pub fn raster(&self, samples: u32) -> Raster {
-        Raster::new(self.image(), samples, self.viewport()).expect("the number was checked")
+        Raster::new(self.image(), samples, self.viewport())
+            .unwrap_or_else(|error| panic!("the picture has no such raster: {error}"))
     }
 
     /// All sample points of the picture, `samples` × `samples` a pixel on a regular grid.
@@ -531,6 +532,6 @@ mod tests {
             CameraError::Size(SizeError::TooManySamples { .. })
         ));
         assert!(check_samples([40_000, 1], 2).is_err());
-        assert!(check_samples([4, 4], 0).is_err());
+        assert_eq!(check_samples([4, 4], 0), Err(SizeError::NoSamples));
     }
 }

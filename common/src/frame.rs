@@ -6,7 +6,7 @@ pub use ids::{IdRows, Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
 
 use crate::camera::Camera;
 use crate::engine::memory::filled;
-use crate::raster::{Crop, Region, check_samples};
+use crate::raster::{Crop, CropError, Region, SizeError, check_samples};
 use crate::view::View;
 use glam::{Vec2, Vec3};
 use ids::{IdBand, IdPlane, bands, cut};
@@ -34,6 +34,36 @@ impl Options {
     pub fn pixels(&self, image: [u32; 2]) -> Crop {
         self.crop.unwrap_or(Crop::whole(image))
     }
+
+    /// Whether an image of this width and height can be rendered with these options. What renders with others panics.
+    ///
+    /// # Errors
+    ///
+    /// As [`check_samples`] and [`Crop::check`].
+    ///
+    /// ```
+    /// use bothways_common::{Camera, Options};
+    ///
+    /// let camera = Camera::canonical(480, 640);
+    /// let options = Options { samples: 4, ..Options::default() };
+    /// assert_eq!(options.check(camera.image()), Ok(()));
+    /// assert!(Options { samples: 0, ..options }.check(camera.image()).is_err());
+    /// ```
+    pub fn check(&self, image: [u32; 2]) -> Result<(), OptionsError> {
+        check_samples(image, self.samples)?;
+        Ok(self.pixels(image).check(image)?)
+    }
+}
+
+/// Why an image cannot be rendered with some [`Options`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum OptionsError {
+    /// It would have no samples, or too many.
+    #[error(transparent)]
+    Samples(#[from] SizeError),
+    /// It has no such crop.
+    #[error(transparent)]
+    Crop(#[from] CropError),
 }
 
 /// What [`Frame::levels`] has where there is no texture coordinate.
@@ -127,11 +157,12 @@ impl Frame {
     ///
     /// # Panics
     ///
-    /// If [`check_samples`] refuses the size, or [`Crop::check`] the crop.
+    /// If [`Options::check`] refuses the options for the camera's image.
     pub fn new(camera: &Camera, options: &Options) -> Frame {
-        check_samples(camera.image(), options.samples).expect("the size was checked");
+        if let Err(error) = options.check(camera.image()) {
+            panic!("no frame has these options: {error}");
+        }
         let pixels = options.pixels(camera.image());
-        pixels.check(camera.image()).expect("the crop was checked");
         let region = pixels.region(options.samples);
         let count = region.area();
         Frame {
@@ -474,31 +505,6 @@ mod tests {
     }
 
     #[test]
-    fn a_pixel_finds_its_samples() {
-        let frame =
-            Frame::new(&Camera::canonical(2, 3), &Options { samples: 2, ..Options::default() });
-        let samples: Vec<_> = frame.samples_of(1, 2).collect();
-        assert_eq!(samples, [16, 17, 22, 23]);
-    }
-
-    #[test]
-    #[should_panic(
-        expected = "the frame has no sample (1, 4): it holds rows 0..3 and columns 0..4"
-    )]
-    fn a_column_too_far_is_not_the_first_of_the_next_row() {
-        let frame = Frame::new(&Camera::canonical(3, 4), &Options::default());
-        let _ = frame.id(1, 4);
-    }
-
-    #[test]
-    fn a_pixel_finds_its_samples() {
-        let frame =
-            Frame::new(&Camera::canonical(2, 3), &Options { samples: 2, ..Options::default() });
-        let samples: Vec<_> = frame.samples_of(1, 2).collect();
-        assert_eq!(samples, [16, 17, 22, 23]);
-    }
-
-    #[test]
     #[should_panic(
         expected = "the frame has no sample (1, 4): it holds rows 0..3 and columns 0..4"
     )]
@@ -527,6 +533,14 @@ mod tests {
     )]
     fn a_frame_without_samples_is_refused_for_what_it_lacks() {
         let _ = Frame::new(&Camera::canonical(3, 5), &Options { samples: 0, crop: None });
+    }
+
+    #[test]
+    fn a_pixel_finds_its_samples() {
+        let frame =
+            Frame::new(&Camera::canonical(2, 3), &Options { samples: 2, ..Options::default() });
+        let samples: Vec<_> = frame.samples_of(1, 2).collect();
+        assert_eq!(samples, [16, 17, 22, 23]);
     }
 
     #[test]

@@ -65,7 +65,7 @@ pub use camera::{
     Camera, CameraDescription, CameraError, Orientation, Projection, Ray, SampleGrid,
 };
 pub use exact::{Judge, Sign};
-pub use frame::{Frame, Options};
+pub use frame::{Frame, Options, OptionsError};
 pub use observe::{Events, Executed, Observer, Work};
 pub use raster::{Crop, CropError, Raster, Region, Sample, SizeError};
 pub use scene::{

@@ -19,6 +19,9 @@ pub enum SizeError {
         /// The image's height.
         height: u32,
     },
+    /// The pixels have no samples.
+    #[error("a pixel has 0x0 samples; give at least 1")]
+    NoSamples,
     /// The image has too many samples.
     #[error(
         "the image is {width}x{height} with {samples}x{samples} samples a pixel; a side may have at \
@@ -44,8 +47,11 @@ pub fn check_samples(image: [u32; 2], samples: u32) -> Result<(), SizeError> {
     if width == 0 || height == 0 {
         return Err(SizeError::Empty { width, height });
     }
+    if samples == 0 {
+        return Err(SizeError::NoSamples);
+    }
     let side = |pixels: u32| u64::from(pixels) * u64::from(samples);
-    let fits = |pixels: u32| (1..=u64::from(MAX_SIDE)).contains(&side(pixels));
+    let fits = |pixels: u32| side(pixels) <= u64::from(MAX_SIDE);
     if !fits(width) || !fits(height) || side(width) * side(height) > MAX_SAMPLES {
         return Err(SizeError::TooManySamples { width, height, samples });
     }

@@ -97,14 +97,14 @@ pub fn prepare(scene: &Scene) -> Prepared {
 ///
 /// # Panics
 ///
-/// If the view's scene is not the one that was prepared, as far as the number of primitives tells, or [`Frame::new`]
-/// refuses the options.
+/// If the view's scene is not the one that was prepared, as far as the number of primitives tells, or
+/// [`Options::check`] refuses the options for the image.
 ///
 /// ```
-/// use bothways_rasterize::common::{Camera, Options, Scene, Shape, Sphere, View, glam::Vec3};
+/// use bothways_rasterize::common::{Camera, Options, Scene, Sphere, View, glam::Vec3};
 /// use bothways_rasterize::fast;
 ///
-/// let sphere = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 });
+/// let sphere = Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 };
 /// let scene = Scene::new(vec![sphere.into()])?;
 /// let camera = Camera::canonical(5, 5);
 /// let prepared = fast::prepare(&scene);
@@ -131,8 +131,8 @@ pub fn render(prepared: &Prepared, view: &View, options: &Options) -> Frame {
 ///
 /// # Panics
 ///
-/// If the view's scene is not the one that was prepared, as far as the number of primitives tells, or [`Frame::new`]
-/// refuses the options.
+/// If the view's scene is not the one that was prepared, as far as the number of primitives tells, or
+/// [`Options::check`] refuses the options for the image.
 pub fn determine_visibility(
     prepared: &Prepared,
     view: &View,

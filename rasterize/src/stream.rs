@@ -105,7 +105,7 @@ impl Canvas {
     ///
     /// # Panics
     ///
-    /// If [`Frame::new`] refuses the options.
+    /// If [`Options::check`] refuses the options for the image.
     pub fn new(camera: &Camera, options: &Options) -> Canvas {
         let frame = Frame::new(camera, options);
         let count = frame.ids().len();

@@ -21,7 +21,7 @@ use bothways_common::{Frame, Options, View};
 ///
 /// # Panics
 ///
-/// If [`Frame::new`] refuses the options.
+/// If [`Options::check`] refuses the options for the image.
 pub fn render(view: &View, options: &Options) -> Frame {
     let mut frame = Frame::new(view.camera, options);
     determine_visibility(view, options, &mut frame, &mut ());
@@ -35,7 +35,7 @@ pub fn render(view: &View, options: &Options) -> Frame {
 ///
 /// # Panics
 ///
-/// If [`Frame::new`] refuses the options.
+/// If [`Options::check`] refuses the options for the image.
 pub fn determine_visibility(
     view: &View,
     options: &Options,

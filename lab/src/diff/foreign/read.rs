@@ -58,7 +58,7 @@ pub enum ReadBufferError {
         "{}: {error}; {}",
         .path.display(),
         match error {
-            SizeError::Empty { .. } => "save it again",
+            SizeError::Empty { .. } | SizeError::NoSamples => "save it again",
             SizeError::TooManySamples { .. } => "compare parts of it",
         }
     )]
