@@ -153,6 +153,9 @@ impl Camera {
     /// The lecture's first camera: eye at the origin, looking down the negative z axis,
     /// `vw = vh = d = 1`.
     ///
+    /// The image's height comes first, as rows do in `(i, j)`; [`Camera::image`] and [`CameraDescription::image`] have the
+    /// width first, as sizes of images are written.
+    ///
     /// # Panics
     ///
     /// If [`check_samples`] refuses the size.
@@ -164,6 +167,7 @@ impl Camera {
     /// let ray = camera.viewing_ray(0, 0);
     /// assert_eq!(ray.origin.to_array(), [0.0, 0.0, 0.0]);
     /// assert_eq!(ray.direction.to_array(), [-0.25, 0.25, -1.0]);
+    /// assert_eq!(Camera::canonical(480, 640).image(), [640, 480]);
     /// ```
     pub fn canonical(height: u32, width: u32) -> Camera {
         let description = CameraDescription {
@@ -223,6 +227,9 @@ impl Camera {
     ///
     /// With the lecture's numbers, which count pixels from 1:
     /// `x = vw·((j − ½)/W − ½)`, `y = −vh·((i − ½)/H − ½)`, direction `x·u + y·v − d·w`.
+    ///
+    /// A row or column behind the image's last one is not refused: the ray then goes where that pixel would be if the image
+    /// went on, beside the viewport.
     pub fn viewing_ray(&self, i: u32, j: u32) -> Ray {
         let [width, height] = self.image();
         let [vw, vh] = self.viewport();

@@ -66,10 +66,11 @@
 //!
 //! # Watching the loop
 //!
-//! Every loop takes an [`Observer`](common::observe::Observer) and tells it what happens: a primitive begins, a sample
-//! is tested, a fragment meets its depth test. Counts ([`Work`](common::Work)), heat maps and films are observers. `()`
-//! is the observer that watches nothing and costs nothing. What `fast` executes for a frame is another sort of count,
-//! which it returns: [`Executed`](common::observe::Executed).
+//! Every loop tells an [`Observer`](common::observe::Observer) what happens: a primitive begins, a sample is tested, a
+//! fragment meets its depth test. (`textbook` takes any [`Events`](common::observe::Events), as `&mut dyn Events`.)
+//! Counts ([`Work`](common::Work)), heat maps and films are observers. `()` is the observer that watches nothing and
+//! costs nothing. What `fast` executes for a frame is another sort of count, which it returns:
+//! [`Executed`](common::observe::Executed).
 //!
 //! # What it promises
 //!

@@ -75,11 +75,12 @@
 //!
 //! # Watching the loop
 //!
-//! Every loop takes an [`Observer`](common::observe::Observer) and tells it what happens: a ray begins, a box is
-//! opened, a sample is tested, a fragment meets its depth test, a ray has its hit. Counts ([`Work`](common::Work)),
-//! heat maps and films are observers. `()` is the observer that watches nothing and costs nothing. For an observer,
-//! `fast` walks each ray alone: the events of a ray do not depend on its tile. What it executes for the tiles of a frame
-//! is another sort of count, which it returns: [`Executed`](common::observe::Executed).
+//! Every loop tells an [`Observer`](common::observe::Observer) what happens: a ray begins, a box is opened, a sample is
+//! tested, a fragment meets its depth test, a ray has its hit. (`textbook` takes any
+//! [`Events`](common::observe::Events), as `&mut dyn Events`.) Counts ([`Work`](common::Work)), heat maps and films are
+//! observers. `()` is the observer that watches nothing and costs nothing. For an observer, `fast` walks each ray alone:
+//! the events of a ray do not depend on its tile. What it executes for the tiles of a frame is another sort of count,
+//! which it returns: [`Executed`](common::observe::Executed).
 //!
 //! # What it promises
 //!

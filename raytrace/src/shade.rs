@@ -30,7 +30,8 @@ pub fn shade(view: &View, frame: &mut Frame) {
     shade_with(view, frame, best_level());
 }
 
-/// [`shade`] with the vector instructions of this level, for tests that compare the levels.
+/// [`shade`] with the vector instructions of this level, for tests that compare the levels. It is hidden because the type of
+/// levels is: users call [`shade`], which takes the best one.
 #[doc(hidden)]
 pub fn shade_with(view: &View, frame: &mut Frame, level: Level) {
     let raster = view.camera.raster(frame.samples());

@@ -10,7 +10,8 @@ use glam::DVec3;
 /// Decides what is true of the samples of one camera.
 ///
 /// Primitives are given relative to the eye, as [`View::primitive`](crate::View::primitive) gives them, and rays are
-/// viewing rays of this camera.
+/// viewing rays of this camera. Their numbers are finite, as those of a [`View`](crate::View) and a [`Camera`] are: of others
+/// nothing is promised, and a function may panic.
 ///
 /// ```
 /// use bothways_common::{Camera, Judge, Primitive, glam::DVec3};
@@ -42,6 +43,10 @@ impl Judge {
     /// - A sphere covers a sample whose ray meets it at two points, at least one of them at `t > 0`. A ray that only
     ///   touches the sphere misses it.
     /// - A plane covers a sample whose ray meets it at one point, at `t > 0`.
+    ///
+    /// # Panics
+    ///
+    /// Perhaps, if a number of the primitive or the ray is NaN or infinite.
     pub fn covers(&self, primitive: &Primitive, ray: &Ray) -> bool {
         match primitive {
             Primitive::Triangle(triangle) => {
@@ -145,6 +150,11 @@ impl Judge {
 
     /// The distance `t` of a primitive that covers the sample, in lengths of the ray's direction, to within a few parts
     /// in 10¹⁰ of itself.
+    ///
+    /// # Panics
+    ///
+    /// Perhaps, if the primitive does not cover the sample; where this does not panic, the answer means nothing.
+    /// [`Judge::covers`] tells.
     pub fn distance(&self, primitive: &Primitive, ray: &Ray) -> f64 {
         nearest::distance(primitive, ray)
     }
