@@ -3,6 +3,7 @@
 use super::beside::{Beside, PAGE};
 use super::color::color;
 use super::failure::Failure;
+use super::shell::quoted;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::check::{Certainty, Check, CheckedFile, ConformanceSet, check};
@@ -11,7 +12,7 @@ use bothways::formats::source::quote::visible;
 use bothways::wording::count;
 use clap::Args;
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 pub(super) const EXAMPLES: &str = "\
@@ -232,13 +233,10 @@ impl Report<'_> {
     fn next_step(&self) -> String {
         let wrong = |file: &&CheckedFile| file.compared.is_ok() && !file.is_right();
         let Some(file) = self.checked.files.iter().find(wrong) else { return String::new() };
-        let theirs = self.args.theirs.join(&file.file).display().to_string();
-        let (theirs, scene) = (visible(&theirs), visible(&file.scene));
         let (first, folder) = match &self.args.vectors {
-            Some(folder) => (String::new(), folder.display().to_string()),
-            None => ("bothways vectors; ".to_owned(), "out/vectors".to_owned()),
+            Some(folder) => ("", folder.as_path()),
+            None => ("bothways vectors; ", Path::new("out/vectors")),
         };
-        let folder = visible(&folder);
         let ending =
             file.compared.as_ref().map_or("mask.png", |compared| match compared.truth.content() {
                 Content::Ids(_) => "ids.npy",
@@ -248,9 +246,11 @@ impl Report<'_> {
         let background = self.args.background.map_or(String::new(), |[red, green, blue]| {
             format!(" --background '#{red:02x}{green:02x}{blue:02x}'")
         });
-        format!(
-            "next: {first}bothways diff {theirs} {folder}/{scene}.{ending} --scene {folder}/{scene}.toml{background}\n"
-        )
+        let word = |path: PathBuf| quoted(&path.display().to_string());
+        let of_set = |ending: &str| word(folder.join(format!("{}.{ending}", file.scene)));
+        let (theirs, truth, scene) =
+            (word(self.args.theirs.join(&file.file)), of_set(ending), of_set("toml"));
+        format!("next: {first}bothways diff {theirs} {truth} --scene {scene}{background}\n")
     }
 }
 

@@ -3,6 +3,7 @@
 use super::args::{from_1, threads};
 use super::failure::Failure;
 use super::output::{OutputFile, Staging};
+use super::shell::quoted;
 use super::status_line::StatusLine;
 use super::{interrupt, terminal};
 use bothways::fuzz::{
@@ -161,7 +162,7 @@ impl<'a> Watch<'a> {
                 let written = write(finding, &self.args.folder);
                 let path = path(finding, &self.args.folder).display().to_string();
                 let end = match &written {
-                    Ok(()) => format!("see it with: {}", command(finding, &path)),
+                    Ok(()) => format!("see it with: {}", command(finding, &quoted(&path))),
                     Err(failure) => failure.to_string(),
                 };
                 self.line.suspend(|| {
@@ -256,7 +257,7 @@ fn json(summary: &Summary, args: &FuzzArgs) -> Result<String, Failure> {
     }
     let findings = summary.findings.iter().map(|finding| {
         let file = path(finding, &args.folder).display().to_string();
-        let command = command(finding, &file);
+        let command = command(finding, &quoted(&file));
         Written { finding, file, command }
     });
     terminal::json(&Report { summary, findings: findings.collect() })

@@ -64,6 +64,17 @@ fn the_next_step_compares_what_the_file_holds() {
     let next = "next: bothways diff mine/one-triangle.npy vectors/one-triangle.t.npy --scene \
                 vectors/one-triangle.toml\n";
     assert!(said.ends_with(next), "{said}");
+    // A shell takes the command as it is.
+    for (from, to) in [("mine", "my pictures"), ("vectors", "it's the set")] {
+        fs::rename(home.path().join(from), home.path().join(to)).unwrap();
+    }
+    let said = printed(bothways(&home, &["check", "my pictures", "it's the set"]), 1);
+    let next = "next: bothways diff 'my pictures/one-triangle.npy' 'it'\\''s the set/one-triangle.t.npy' --scene \
+                'it'\\''s the set/one-triangle.toml'\n";
+    assert!(said.ends_with(next), "{said}");
+    for (from, to) in [("mine", "my pictures"), ("vectors", "it's the set")] {
+        fs::rename(home.path().join(to), home.path().join(from)).unwrap();
+    }
     // Colours alone tell what is covered by their background, here nothing of the left half.
     let (mine, background) = (home.path().join("mine"), image::Rgb([16, 20, 24]));
     fs::remove_file(mine.join("one-triangle.npy")).unwrap();

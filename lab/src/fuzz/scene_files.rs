@@ -69,7 +69,8 @@ fn rows(instances: &Instances) -> String {
     format!("\ninstances = [{}]", rows.join(", "))
 }
 
-/// The command that shows the disagreement again, for the finding's scene file at a path.
+/// The command that shows the disagreement again, for the finding's scene file at a path, which is written as it is given: in
+/// quotes, if a shell needs them.
 pub fn command(finding: &Finding, path: &str) -> String {
     let Case { samples, crop, .. } = finding.case;
     let mut command = format!("bothways {path}");
