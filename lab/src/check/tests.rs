@@ -176,7 +176,37 @@ fn what_cannot_be_read_and_what_is_missing_are_rows() {
     let error = |at: usize| &checked.files[at].compared.as_ref().unwrap_err().reason;
     assert!(error(0).contains(names[1]), "{}", error(0));
     assert!(error(1).contains("3 x 5"), "{}", error(1));
-    assert_eq!(checked.verdict(), "3 of 74 fail: 2 cannot be compared; 1 missing");
+    assert_eq!(checked.verdict(), "2 of 73 cannot be compared; 1 scene is missing");
+}
+
+#[test]
+fn each_number_of_the_verdict_belongs_to_what_stands_beside_it() {
+    let file = |at: usize| CheckedFile {
+        scene: format!("scene-{at}"),
+        file: format!("scene-{at}.png"),
+        point: String::new(),
+        compared: Err("it is of no use".to_owned().into()),
+    };
+    let cause = |sentence: &str, files: std::ops::Range<usize>| Cause {
+        alternatives: vec![vec![sentence.into()]],
+        certainty: Certainty::Reason,
+        files: files.collect(),
+    };
+    let mut check = Check {
+        files: (0..8).map(file).collect(),
+        missing: vec!["other".into(); 15],
+        ignored: Vec::new(),
+        causes: vec![cause("it rounds", 0..3), cause("it hides", 3..5), cause("it ends", 5..6)],
+    };
+    let verdict = "8 of 8 fail, 3 of them: it rounds; 2 other causes (3); 2 cannot be compared; 15 scenes are missing";
+    assert_eq!(check.verdict(), verdict);
+    check.causes = vec![cause("it rounds", 0..8)];
+    check.missing.clear();
+    assert_eq!(check.verdict(), "8 of 8 fail: it rounds");
+    check.files.clear();
+    check.causes.clear();
+    check.missing.push("other".into());
+    assert_eq!(check.verdict(), "all 0 files are right; 1 scene is missing");
 }
 
 /// A folder with the ids of every third scene, 2 x 2 samples a pixel, by a rule.
