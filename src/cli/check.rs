@@ -62,6 +62,9 @@ pub(super) fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let title = [args.theirs.display().to_string(), report.set()];
     page.write(|out| checked.write_page([&title[0], &title[1]], out))?;
     page.print(&if args.json { report.json()? } else { report.text() + &page.written() })?;
+    if args.json {
+        report.warn_of_unreadable();
+    }
     Ok(ExitCode::from(match (checked.passes(), checked.unreadable()) {
         (true, _) => 0,
         (false, 0) => 1,
@@ -227,6 +230,22 @@ impl Report<'_> {
             text += &format!("\nof no scene, and left out: {files}, such as {}\n", visible(first));
         }
         text
+    }
+
+    /// Says on stderr why the exit code is 2, where no text says it.
+    fn warn_of_unreadable(&self) {
+        let files = self.checked.files.iter().enumerate();
+        let mut errors = files.filter_map(|(at, file)| {
+            let error = file.compared.as_ref().err()?;
+            self.checked.cause_of(at).is_none().then_some((&file.file, &error.reason))
+        });
+        let Some((file, reason)) = errors.next() else { return };
+        let more = errors.count() as u64;
+        let others = match more {
+            0 => String::new(),
+            _ => format!(" (and {})", count(more, "other files")),
+        };
+        Failure::new(format!("{file}{others} cannot be compared: {reason}")).print();
     }
 
     /// The commands for a look at the first file that is wrong.

@@ -91,6 +91,21 @@ fn the_next_step_compares_what_the_file_holds() {
 }
 
 #[test]
+fn a_file_that_cannot_be_compared_is_named_beside_json() {
+    let home = upside_down();
+    let mine = home.path().join("mine");
+    image::GrayImage::new(3, 5).save(mine.join("fan.png")).unwrap();
+    fs::write(mine.join("left-edge.png"), "no picture").unwrap();
+    let assert = bothways(&home, &["check", "mine", "vectors", "--json"]).assert().code(2);
+    let output = assert.get_output();
+    let said = String::from_utf8(output.stderr.clone()).unwrap();
+    assert!(said.starts_with("error: ") && said.lines().count() == 1, "{said}");
+    assert!(said.contains(" (and 1 other file) cannot be compared: "), "{said}");
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(json["verdict"].as_str().unwrap().contains("; 2 cannot be compared"), "{json}");
+}
+
+#[test]
 fn the_set_itself_passes_and_a_page_is_written() {
     let home = upside_down();
     let args = ["check", "vectors", "vectors", "--html", "check.html"];
