@@ -45,6 +45,8 @@ fn home() -> TempDir {
     write("empty.obj", b"v 0 0 0\n");
     write("damaged.png", b"\x89PNG\r\n\x1a\n");
     write("empty.png", b"");
+    fs::create_dir(home.path().join("cut")).unwrap();
+    write("cut/index.json", b"{\n  \"set\":");
     write("a.pgm", b"P2 2 1 1\n0 1\n");
     write("b.pgm", b"P2 1 2 1\n0 1\n");
     home

@@ -58,7 +58,7 @@ pub enum PairsError {
     },
     /// The index of a conformance set is damaged.
     #[error(
-        "{} is not the index of a conformance set: {error}; write the set again with bothways vectors",
+        "{} is not the index of a conformance set, or it is damaged: {error}; write the set again with bothways vectors",
         .path.display()
     )]
     Index {
@@ -173,12 +173,15 @@ impl Pairs {
     }
 }
 
-/// The scenes of the conformance set in a folder; `None` if the folder is no set.
+/// The scenes of the conformance set in a folder; `None` if the folder is no set: it has no index, or one of another program.
 ///
 /// # Errors
 ///
-/// An error for a damaged index.
+/// An error for a damaged index. A file of that name that is no JSON is one.
 pub fn scenes_of_set(folder: &Path) -> Result<Option<Vec<SetScene>>, PairsError> {
+    if let Some(Err(error)) = json_of_index(folder) {
+        return Err(PairsError::Index { path: folder.join(INDEX), error });
+    }
     Ok(index(folder)?.map(|index| index.scenes))
 }
 
@@ -230,18 +233,20 @@ fn buffers(folder: &Path) -> Result<BTreeSet<String>, PairsError> {
 
 /// The index of a conformance set, if the folder is one.
 fn index(folder: &Path) -> Result<Option<Index>, PairsError> {
-    let path = folder.join(INDEX);
-    let (mut text, file) = (String::new(), regular_file(&path));
-    let read = file.and_then(|file| file.take(LARGEST_INDEX).read_to_string(&mut text));
-    if read.is_err() {
-        return Ok(None);
-    }
-    let Ok(value) = serde_json::from_str::<serde_json::Value>(&text) else { return Ok(None) };
-    // Other programs also have files with this name.
+    // Other programs also have files with this name, and not all of them are JSON.
+    let Some(Ok(value)) = json_of_index(folder) else { return Ok(None) };
     if value["set"] != "bothways" {
         return Ok(None);
     }
+    let path = folder.join(INDEX);
     serde_json::from_value(value).map(Some).map_err(|error| PairsError::Index { path, error })
+}
+
+/// The content of the file with the name of an index; `None` if there is none that can be read.
+fn json_of_index(folder: &Path) -> Option<serde_json::Result<serde_json::Value>> {
+    let (mut text, file) = (Vec::new(), regular_file(&folder.join(INDEX)).ok()?);
+    file.take(LARGEST_INDEX).read_to_end(&mut text).ok()?;
+    Some(serde_json::from_slice(&text))
 }
 
 /// The pairs of a folder next to the set, which is B.

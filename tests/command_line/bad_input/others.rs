@@ -88,6 +88,11 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ),
     ("check . .", ". is no conformance set: it has no index.json of one"),
     (
+        "check . cut",
+        "cut/index.json is not the index of a conformance set, or it is damaged: EOF while parsing a value at line 2 \
+         column 8; write the set again with bothways vectors",
+    ),
+    (
         "check . --background red",
         "invalid value 'red' for '--background <COLOR>': write a # and six hexadecimal digits",
     ),
