@@ -72,8 +72,25 @@ impl TargetArg {
     }
 }
 
+/// Refuses a folder that is called like a file of an export, as whoever writes `-o scene.glb` means a file. A folder of
+/// this name that exists, or has a `/` behind its name, is meant.
+fn check_folder(folder: &Path) -> Result<(), Failure> {
+    let ending = folder.extension().unwrap_or_default().to_ascii_lowercase();
+    let of_file = |target: &Target| ending == target.ending();
+    let is_meant = folder.is_dir() || folder.as_os_str().as_encoded_bytes().ends_with(b"/");
+    if is_meant || !(Target::ALL.iter().any(of_file) || ending == "gltf") {
+        return Ok(());
+    }
+    let name = folder.display();
+    Err(Failure::new(format!(
+        "cannot write into the folder {name}: -o names a folder, and this is the name of a file, which is called after \
+         the scene; choose another one with -o (one that is called so as {name}/)"
+    )))
+}
+
 /// Writes all files or no file, and says what is not as in the scene.
 pub(super) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
+    args.folder.as_deref().map_or(Ok(()), check_folder)?;
     let loaded = args.files.load_narrow(&args.scene, args.camera.size, "an export writes")?;
     let camera = camera(&loaded, &args.camera)?;
     let target = args.target.target();

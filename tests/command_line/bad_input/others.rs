@@ -78,6 +78,16 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ),
     ("camera parallel --as opencv", "the camera of 'parallel': OpenCV has no parallel camera:"),
     ("camera parallel --as colmap", "the camera of 'parallel': COLMAP has no parallel camera:"),
+    // A folder is no file.
+    (
+        "export canonical --as gltf -o new/l.glb",
+        "cannot write into the folder new/l.glb: -o names a folder, and this is the name of a file, which is called \
+         after the scene; choose another one with -o (one that is called so as new/l.glb/)",
+    ),
+    (
+        "export canonical --as obj -o zz.OBJ",
+        "cannot write into the folder zz.OBJ: -o names a folder,",
+    ),
     // A whole renderer.
     ("check", "the following required arguments were not provided: <THEIRS>"),
     ("check no-such", "cannot list the folder no-such: there is no such folder"),
