@@ -3,7 +3,7 @@
 use super::command::Cli;
 use super::failure::Failure;
 use super::shell::quoted;
-use super::terminal::tame;
+use super::terminal::{print, tame};
 use bothways::formats::scene_file::nearest_name;
 use bothways::formats::source::quote::visible;
 use bothways::scenes::BUILT_IN;
@@ -30,14 +30,16 @@ pub(super) fn parse() -> Result<Cli, Failure> {
     }
 }
 
-/// Prints the parser's text, which is help or an error, and ends the program. The text quotes words of the command
-/// line.
-fn exit(error: &clap::Error) -> ! {
+/// Prints the parser's text, which is help or an error, and ends the program, unless help cannot be printed. The text
+/// quotes words of the command line.
+fn exit(error: &clap::Error) -> Failure {
+    let text = error.render().ansi().to_string();
     if error.use_stderr() {
-        anstream::eprint!("{}", tame(&error.render().ansi().to_string()));
-        std::process::exit(error.exit_code());
+        anstream::eprint!("{}", tame(&text));
+    } else if let Err(failure) = print(&text) {
+        return failure;
     }
-    error.exit()
+    std::process::exit(error.exit_code())
 }
 
 fn is_subcommand(word: &str) -> bool {

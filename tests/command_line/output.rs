@@ -160,7 +160,15 @@ fn a_full_device_is_named_with_what_to_do() {
         bothways(&home, args).assert().code(2).stdout("").stderr(format!("error: {full}"));
         assert!(fs::metadata("/dev/full").unwrap().file_type().is_char_device());
     }
-    for args in [&["scenes"][..], &["canonical", "--size", "4x4"], &["mesh", "box", "-o", "-"]] {
+    for args in [
+        &["scenes"][..],
+        &["canonical", "--size", "4x4"],
+        &["mesh", "box", "-o", "-"],
+        &["--help"],
+        &["diff", "-h"],
+        &["help", "diff"],
+        &["--version"],
+    ] {
         let mut command = process::Command::new(assert_cmd::cargo::cargo_bin("bothways"));
         command.current_dir(&home).args(args).stdout(File::create("/dev/full").unwrap());
         let output = command.output().unwrap();
