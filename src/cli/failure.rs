@@ -85,13 +85,16 @@ impl Located {
 
     /// The lines around the place, underlined.
     fn drawn(&self) -> String {
-        let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode())
+        let mut theme = GraphicalTheme::unicode();
+        theme.characters.error = "error:".into();
+        let handler = GraphicalReportHandler::new_themed(theme)
             .with_links(false)
             .without_primary_span_start()
             .with_width(100);
         let mut drawn = String::new();
         match handler.render_report(&mut drawn, self) {
-            Ok(()) => drawn,
+            // As all errors, it begins with this word.
+            Ok(()) => drawn.trim_start_matches(' ').to_owned(),
             Err(fmt::Error) => format!("error: {}\n", self.error),
         }
     }

@@ -56,12 +56,12 @@ fn a_mesh_outside_of_the_scene_is_refused_unless_it_is_allowed() {
     let scene = home.path().join("scene");
     let says = format!("\"../beside/a.obj\" {OUTSIDE}");
     let unwrapped = |text: &str| -> String {
-        let of_frame = |c: char| c == '│' || c == '×';
-        text.replace(of_frame, " ").split_whitespace().collect::<Vec<_>>().join(" ")
+        text.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let refused = bothways(&scene, &["outside.toml", "-o", "out"]).code(2);
     let said = String::from_utf8(refused.get_output().stderr.clone()).unwrap();
     assert!(unwrapped(&said).contains(&says), "{said}");
+    assert!(said.starts_with("error: "), "{said}");
     assert!(!scene.join("out").exists());
     bothways(&scene, &["outside.toml", "-o", "out", "--allow-outside"]).code(0).stderr("");
     // Every command that opens a scene takes the option.
