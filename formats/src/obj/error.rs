@@ -70,8 +70,10 @@ pub enum StatementFault {
         /// The keyword.
         keyword: String,
     },
-    /// The statement does not fit into the buffer of the reader.
-    #[error("a statement of more than {most} bytes is not read; cut the polygon up")]
+    /// The statement does not fit into the buffer of the reader. It may be a comment.
+    #[error(
+        "a statement or a comment of more than {most} bytes is not read; cut a polygon up, and break a comment into lines"
+    )]
     TooLong {
         /// The most bytes that it may have.
         most: usize,
