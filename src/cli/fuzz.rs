@@ -65,7 +65,7 @@ pub(super) struct FuzzArgs {
     /// Threads; each draws scenes of its own; all cores if not given
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     threads: Option<u16>,
-    /// The folder for the scene files of disagreements; nothing is written without one
+    /// The folder for the scene files of disagreements; if all agree, it is not made
     #[arg(short = 'o', long = "output", value_name = "DIR", default_value = "out/fuzz")]
     folder: PathBuf,
     /// Print the summary as JSON
