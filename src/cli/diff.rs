@@ -88,12 +88,12 @@ fn compare_files(args: &DiffArgs, page: &Beside) -> Result<ExitCode, Failure> {
             width - 1
         )));
     }
+    let of_samples = by_sample.as_ref().map_or(&comparison, |fine| fine.comparison());
     if let Some(folder) = &args.folder {
         let mut staging = Staging::begin_with(folder, NAMES.map(str::to_owned).to_vec())?;
         staging.write_rgb(NAMES[0], &enlarged(comparison.picture()))?;
         if let Some(why) = &why {
-            let comparison = by_sample.as_ref().map_or(&comparison, |fine| fine.comparison());
-            staging.write_rgb(NAMES[1], &why.picture(comparison))?;
+            staging.write_rgb(NAMES[1], &why.picture(of_samples))?;
         }
         staging.commit()?;
     }
@@ -106,7 +106,7 @@ fn compare_files(args: &DiffArgs, page: &Beside) -> Result<ExitCode, Failure> {
     let report = FileReport { files, read: &read, comparison: &comparison, why: why.as_ref() };
     let text = match (args.pixel, &why) {
         _ if args.json => report.json()?,
-        (Some(pixel), Some(why)) => why.pixel(pixel) + &page.written(),
+        (Some(pixel), Some(why)) => why.pixel(pixel, of_samples) + &page.written(),
         _ => report.text(args.folder.as_deref()) + &page.written(),
     };
     page.print(&text)?;

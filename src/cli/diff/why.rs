@@ -324,8 +324,8 @@ impl<'a> Why<'a> {
         explained.or(first.map(|one| one.pixel))
     }
 
-    /// The evidence of one pixel.
-    pub(super) fn pixel(&self, pixel: [u32; 2]) -> String {
+    /// The evidence of one pixel. `comparison` is of the samples, if there are several a pixel.
+    pub(super) fn pixel(&self, pixel: [u32; 2], comparison: &BufferComparison) -> String {
         let [i, j] = pixel;
         let reasons = match &self.reasons {
             Ok(reasons) => reasons,
@@ -334,7 +334,17 @@ impl<'a> Why<'a> {
         let of_pixel = reasons.pixels.iter().filter(|one| self.pixel_of(one.pixel) == pixel);
         let found: Vec<String> = of_pixel.map(|one| self.evidence(one)).collect();
         if found.is_empty() {
-            return format!("the files do not differ at ({i}, {j}), or it was not looked at\n");
+            let mut differing = comparison.classes().differing();
+            if !differing.any(|(one, _)| self.pixel_of(one) == pixel) {
+                return format!("the files do not differ at ({i}, {j})\n");
+            }
+            let (looked_at, things) = (grouped(reasons.pixels.len() as u64), self.things());
+            let all = grouped(reasons.differing);
+            return format!(
+                "the files differ at ({i}, {j}), which is not among the {looked_at} of {all} differing {things} that \
+                 were looked at\n{}\n",
+                self.command(pixel)
+            );
         }
         found.concat() + &self.command(pixel) + "\n"
     }
