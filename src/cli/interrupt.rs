@@ -31,6 +31,8 @@ struct State {
     asks_first: bool,
     /// What is said of the files that are in place while the run goes on.
     stays: Option<String>,
+    /// The run writes to standard output, a device or a pipe, where nothing can be undone.
+    streams: bool,
 }
 
 impl State {
@@ -40,6 +42,7 @@ impl State {
         asked: false,
         asks_first: false,
         stays: None,
+        streams: false,
     };
 }
 
@@ -52,6 +55,11 @@ static ENDS_EARLY: AtomicBool = AtomicBool::new(false);
 pub(super) fn first_asks() -> &'static AtomicBool {
     state().asks_first = true;
     &ENDS_EARLY
+}
+
+/// From now on, the run writes to standard output, a device or a pipe: what arrives there stays.
+pub(super) fn streams() {
+    state().streams = true;
 }
 
 /// The files that are in place are not yet all: the run goes on, and if it is interrupted, this is said of them.
@@ -89,18 +97,22 @@ pub(super) fn clean_up() {
                 let _ = fs::remove_dir(folder);
             }
         }
-        if state.placed {
-            anstream::eprintln!("\ninterrupted: all files are written");
-        } else if let Some(stays) = &state.stays {
-            anstream::eprintln!("\ninterrupted: {stays}");
-        } else if !state.unfinished.is_empty() {
-            anstream::eprintln!("\ninterrupted: nothing was written");
-        }
+        anstream::eprintln!("\n{}", state.said());
         process::exit(INTERRUPTED);
     });
 }
 
 impl State {
+    /// What the program says at its end: what became of the files.
+    fn said(&self) -> String {
+        match (&self.stays, self.placed) {
+            (_, true) => "interrupted: all files are written".into(),
+            (Some(stays), false) => format!("interrupted: {stays}"),
+            (None, false) if self.streams => "interrupted".into(),
+            (None, false) => "interrupted: nothing was written".into(),
+        }
+    }
+
     /// Whether a run is so near its end that it may continue: all files are in place, and the exit code reports their
     /// content. A second Ctrl-C ends the run.
     fn is_left_to_end(&mut self) -> bool {
@@ -146,6 +158,18 @@ fn state() -> MutexGuard<'static, State> {
 #[cfg(test)]
 mod tests {
     use super::State;
+
+    #[test]
+    fn an_interrupted_run_says_what_became_of_its_files() {
+        let mut state = State::BEGIN;
+        assert_eq!(state.said(), "interrupted: nothing was written");
+        state.streams = true;
+        assert_eq!(state.said(), "interrupted");
+        state.stays = Some("a.csv stays".into());
+        assert_eq!(state.said(), "interrupted: a.csv stays");
+        state.placed = true;
+        assert_eq!(state.said(), "interrupted: all files are written");
+    }
 
     #[test]
     fn only_a_run_whose_files_are_in_place_goes_on_and_once() {

@@ -152,6 +152,7 @@ fn into_stream(
     stream: impl Write + 'static,
     content: impl FnOnce(&mut Out) -> io::Result<()>,
 ) -> io::Result<()> {
+    interrupt::streams();
     match fill(stream, content) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         written => written,
