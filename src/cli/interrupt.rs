@@ -29,6 +29,8 @@ struct State {
     asked: bool,
     /// The first Ctrl-C asks the run to end early.
     asks_first: bool,
+    /// The run goes on when a file is in place, and this is then said of it.
+    goes_on: Option<String>,
     /// What is said of the files that are in place while the run goes on.
     stays: Option<String>,
     /// The run writes to standard output, a device or a pipe, where nothing can be undone.
@@ -41,6 +43,7 @@ impl State {
         placed: false,
         asked: false,
         asks_first: false,
+        goes_on: None,
         stays: None,
         streams: false,
     };
@@ -62,11 +65,14 @@ pub(super) fn streams() {
     state().streams = true;
 }
 
-/// The files that are in place are not yet all: the run goes on, and if it is interrupted, this is said of them.
+/// From now on, the run goes on when a file is in place; if it is then interrupted, this is said.
 pub(super) fn goes_on(stays: String) {
-    let mut state = state();
-    state.placed = false;
-    state.stays = Some(stays);
+    state().goes_on = Some(stays);
+}
+
+/// The files that come now are the last ones.
+pub(super) fn goes_on_no_longer() {
+    state().goes_on = None;
 }
 
 /// Marks a folder as unfinished until this value is dropped.
@@ -113,6 +119,15 @@ impl State {
         }
     }
 
+    /// The files of a guard are in their places. That is the end, unless the run goes on: this is known before, so that no
+    /// Ctrl-C in between is taken for one at the end.
+    fn is_in_place(&mut self) {
+        match &self.goes_on {
+            Some(stays) => self.stays = Some(stays.clone()),
+            None => self.placed = true,
+        }
+    }
+
     /// Whether a run is so near its end that it may continue: all files are in place, and the exit code reports their
     /// content. A second Ctrl-C ends the run.
     fn is_left_to_end(&mut self) -> bool {
@@ -141,7 +156,7 @@ impl Held {
     /// Registers that all files of a guard are in their places.
     pub(super) fn placed(&mut self, guard: &Guard) {
         self.0.unfinished.retain(|one| one.hidden != guard.0);
-        self.0.placed = true;
+        self.0.is_in_place();
     }
 }
 
@@ -169,6 +184,18 @@ mod tests {
         assert_eq!(state.said(), "interrupted: a.csv stays");
         state.placed = true;
         assert_eq!(state.said(), "interrupted: all files are written");
+    }
+
+    #[test]
+    fn a_run_that_goes_on_ends_at_once_right_after_a_file() {
+        let mut state = State { goes_on: Some("a.csv stays".into()), ..State::BEGIN };
+        assert_eq!(state.said(), "interrupted: nothing was written");
+        state.is_in_place();
+        assert!(!state.is_left_to_end());
+        assert_eq!(state.said(), "interrupted: a.csv stays");
+        state.goes_on = None;
+        state.is_in_place();
+        assert!(state.is_left_to_end());
     }
 
     #[test]

@@ -155,14 +155,15 @@ fn measure(args: &SweepArgs, plan: &Plan, axes: &[Axis], table: &mut Table) -> R
     let file = OutputFile::find(&args.folder.join(CSV))?;
     let line = StatusLine::with_steps(all as u64, (all - tasks.len()) as u64);
     let mut bench = Bench::default();
+    interrupt::goes_on(format!("what was measured stays in {}", file.said()));
     for task in tasks {
         let x = bothways::sweep::short(task.case.x);
         line.say(format!("{x} {}", task.case.axis.unit()));
         table.insert(task, bench.measure(&task));
         file.write(|out| out.write_all(table.csv().as_bytes()))?;
-        interrupt::goes_on(format!("what was measured stays in {}", file.said()));
         line.step();
     }
+    interrupt::goes_on_no_longer();
     Ok(())
 }
 
