@@ -383,3 +383,27 @@ fn bad_input_is_named_and_nothing_is_written() {
     let help = contains("Examples:").and(contains("Exit codes"));
     bothways(&home, &["diff", "--help"]).assert().code(0).stdout(help);
 }
+
+#[test]
+fn ids_that_are_saved_as_floats_are_read_as_ids() {
+    let home = rendered("1");
+    let mut bytes = fs::read(home.path().join("out/object-order.ids.npy")).unwrap();
+    let header = bytes.len() - 4 * 24 * 16;
+    let dtype = bytes.windows(3).position(|three| three == b"<u4").unwrap();
+    bytes[dtype + 1] = b'f';
+    for number in bytes[header..].as_chunks_mut::<4>().0 {
+        let id = u32::from_le_bytes(*number);
+        let float = if id == u32::MAX { -1.0 } else { f32::from(u16::try_from(id).unwrap()) };
+        *number = float.to_le_bytes();
+    }
+    fs::write(home.path().join("floats.npy"), bytes).unwrap();
+    let warning =
+        || contains("floats.npy: these numbers look like ids saved as floating-point numbers");
+    for scene in [&[][..], &["--scene", "canonical"]] {
+        let ids = ["diff", "out/image-order.ids.npy", "floats.npy"];
+        let compared = contains("compared: coverage, ids");
+        bothways(&home, &ids).args(scene).assert().code(0).stdout(compared).stderr(warning());
+        let as_distances = bothways(&home, &ids).args(scene).args(["--depth", "t"]).assert();
+        as_distances.code(1).stdout(contains("not compared: ids: only A tells"));
+    }
+}

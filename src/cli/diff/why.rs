@@ -83,8 +83,8 @@ pub(super) struct Why<'a> {
     samples: u32,
     /// Whether A and B are pictures, of which coverage alone is held against the scene.
     are_pictures: [bool; 2],
-    /// Whether one of the files covers nothing.
-    has_empty_file: bool,
+    /// Whether one of the files is empty, or as a whole not what it is read as: then the reasons of its single pixels mislead.
+    is_no_matter_of_pixels: bool,
     /// The scene and the camera's options, as they were given: what `bothways pixel` needs.
     scene: String,
     /// The conventions of A and of B, or why they cannot be found.
@@ -118,13 +118,19 @@ impl<'a> Why<'a> {
         }
         let is_picture = |file: &Buffer| matches!(file.content(), Content::Picture(_));
         let are_pictures = [a, b].map(is_picture);
-        let coverage = comparison.coverage;
-        let has_empty_file = coverage.is_some_and(|covered| covered.a.min(covered.b) == 0);
+        let covered = comparison.coverage.map_or([1; 2], |covered| [covered.a, covered.b]);
+        // A mask that covers all may be right in most pixels.
+        let misleads = |side: usize| {
+            let finding = conventions[side].as_ref().map(|found| &found.finding);
+            let is_mask = matches!([a, b][side].content(), Content::Mask(_));
+            matches!(finding, Ok(Finding::NoEvidence(_))) && !(is_mask && covered[side] > 0)
+        };
+        let is_no_matter_of_pixels = misleads(0) || misleads(1);
         Why {
             camera: view.camera,
             samples,
             are_pictures,
-            has_empty_file,
+            is_no_matter_of_pixels,
             scene,
             conventions,
             reasons,
@@ -135,8 +141,8 @@ impl<'a> Why<'a> {
     pub(super) fn text(&self) -> String {
         let mut text = String::new();
         match &self.reasons {
-            // That some pixels of a file without content lie near edges says nothing of why it is empty.
-            Ok(_) if self.has_empty_file => {}
+            // That some pixels of an empty file would lie near edges says nothing of why it is empty.
+            Ok(_) if self.is_no_matter_of_pixels => text.push('\n'),
             Ok(reasons) => self.table(reasons, &mut text),
             Err(error) => line(&mut text, format_args!("no reasons: {error}")),
         }

@@ -66,6 +66,11 @@ impl Explanation {
             || self.convention.changes().into_iter().any(Change::is_coarse)
     }
 
+    /// Whether another explanation may be better than this one.
+    pub(super) fn may_be_bettered(&self) -> bool {
+        self.remaining > 0 || self.encoding.ids == IdEncoding::OneToOne
+    }
+
     /// Whether it leaves fewer pixels than another one. Numbers of its own for each primitive say less than anything.
     pub(super) fn is_better_than(&self, other: &Explanation) -> bool {
         self.remaining < other.remaining || other.encoding.ids == IdEncoding::OneToOne

@@ -80,10 +80,15 @@ impl Pixels<'_> {
         }
     }
 
-    /// Pixels that show another primitive than their left neighbours, evenly spread.
+    /// Pixels that show another primitive than their left neighbours, or in a mask something beside nothing; evenly spread.
     fn probes(&self) -> Vec<usize> {
         let ids = &self.truth.ids;
-        let telling = (1..ids.len()).filter(|&at| ids[at] != ids[at - 1]);
+        let is_mask = matches!(self.observed.values, Values::Mask(_));
+        let number = |at: usize| match is_mask {
+            true => u32::from(ids[at] != NO_PRIMITIVE),
+            false => ids[at],
+        };
+        let telling = (1..ids.len()).filter(|&at| number(at) != number(at - 1));
         // An edge has two sides.
         let telling: Vec<usize> = telling.flat_map(|at| [at - 1, at]).collect();
         let step = telling.len().div_ceil(PROBES).max(1);
@@ -123,8 +128,9 @@ impl Pixels<'_> {
         let agreeing = |stride: usize| {
             let placed = probes.iter().filter_map(|&pixel| {
                 let (row, column) = (pixel / width, pixel % width);
-                // Another row may be written over what lies farther right.
-                let element = (column < stride).then_some(row * stride + column)?;
+                // The next row may be written over what lies farther right, and nothing over the end of the row before.
+                let is_alone = column + stride >= width || 2 * stride <= width;
+                let element = (column < stride && is_alone).then_some(row * stride + column)?;
                 (element < count).then(|| self.agree(element, Some(pixel)))
             });
             most(placed)

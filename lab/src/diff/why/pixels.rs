@@ -231,10 +231,20 @@ impl<'a> Finder<'a> {
             (Some(Some(a)), Some(Some(b))) => (Wrong::Both, a.worse(b)),
             (Some(Some(a)), _) => (Wrong::A, a),
             (_, Some(Some(b))) => (Wrong::B, b),
+            // What differs where both are right in coverage alone is their colour.
+            (Some(None), Some(None)) if self.tell_coverage_alone() => {
+                (Wrong::Neither, Reason::CannotTell)
+            }
             (Some(None), Some(None)) => (Wrong::Neither, Reason::WithinTolerance),
             _ => (Wrong::Neither, Reason::CannotTell),
         };
         PixelReason { pixel, truth, wrong, reason }
+    }
+
+    /// Whether both files are held against the truth by what they cover.
+    fn tell_coverage_alone(&self) -> bool {
+        let is_mask = |file: &Shown| matches!(file.observed.values, Values::Mask(_));
+        self.files.iter().flatten().all(is_mask)
     }
 
     /// Why a file is wrong at a sample; `None` where it is right.

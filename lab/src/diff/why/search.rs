@@ -21,7 +21,7 @@ use super::drawn::{Drawn, Rows};
 use super::encoding::{Encoding, IdEncoding, NothingEncoding};
 use super::evidence::no_evidence;
 use super::expected::{Expected, Score, score_of_truth};
-use super::finding::{Finding, Findings};
+use super::finding::{Explanation, Finding, Findings};
 use super::observed::{Observed, Values};
 use super::place::common_place;
 use crate::common::View;
@@ -142,8 +142,12 @@ impl Search<'_> {
         finalists = self.improved(finalists, ours, placed.convention);
         finalists.sort_by_key(Candidate::rank);
         let mut explanations = self.best(&self.credible(finalists), ours);
-        for other in [self.missing(), self.layout()].into_iter().flatten() {
-            if explanations.first().is_none_or(|best| other.is_better_than(best)) {
+        for other in [Self::missing, Self::layout] {
+            let may_be_better = explanations.first().is_none_or(Explanation::may_be_bettered);
+            let other = may_be_better.then(|| other(self)).flatten();
+            if let Some(other) = other
+                && explanations.first().is_none_or(|best| other.is_better_than(best))
+            {
                 explanations = vec![other];
             }
         }
