@@ -18,17 +18,16 @@ mod causes;
 mod found;
 mod page;
 mod set;
+mod truth;
 
 pub use found::{Cause, Certainty, Check, CheckedFile, Compared, NotCompared};
 pub use set::{ConformanceSet, SetError};
+pub(crate) use truth::truth;
 
-use crate::common::raster::check_samples;
-use crate::common::{Camera, Options, Scene, View};
-use crate::diff::foreign::Aspect;
-use crate::diff::foreign::{Buffer, CompareOptions, Content, ReadOptions, compare_with, read_with};
+use crate::common::{Camera, Scene, View};
+use crate::diff::foreign::{CompareOptions, ReadOptions, compare_with, read_with};
 use crate::diff::pairs::{PairsError, files_of_set};
 use crate::diff::why::{alternatives, check_size};
-use crate::orders::{self, Method, Order, RenderOptions};
 use crate::wording::{count, grouped};
 use std::path::Path;
 
@@ -90,37 +89,6 @@ fn compared(
     let options = CompareOptions { only_compares: true, ..CompareOptions::default() };
     let comparison = compare_with(&theirs, &truth, &options).map_err(|error| error.to_string())?;
     Ok(Compared { theirs, truth, comparison })
-}
-
-/// The exact picture of a scene, with the content and the samples of a file.
-///
-/// # Errors
-///
-/// If the image has no such samples, or the file has colours alone.
-pub(crate) fn truth(view: &View, like: &Buffer) -> Result<Buffer<'static>, String> {
-    let samples = like.samples();
-    check_samples(view.camera.image(), samples).map_err(|error| error.to_string())?;
-    if !like.has_coverage() {
-        return Err("the file has colours alone, and colours do not tell what is covered; save a mask, ids or \
-                    distances, or name the colour of what is not covered with --background"
-            .into());
-    }
-    let frame = Options { samples, crop: None };
-    let options = RenderOptions { frame, no_counts: true, no_times: true, ..Default::default() };
-    let rendered = orders::render(Order::Object, Method::Fast, view, &options);
-    let frame = rendered.expect("only a stream has errors").frame;
-    // A frame stores rows of samples, a file the samples of a pixel together.
-    let order = || frame.pixels().flat_map(|[i, j]| frame.samples_of(i as usize, j as usize));
-    let ids = || order().map(|sample| frame.ids().get(sample));
-    let content = if like.tells(Aspect::Ids) {
-        Content::Ids(ids().collect())
-    } else if like.tells(Aspect::T) {
-        Content::Distances(order().map(|sample| frame.distances()[sample].into()).collect())
-    } else {
-        let mask: Vec<bool> = ids().map(|id| id.is_some()).collect();
-        Content::Mask(mask.into())
-    };
-    Ok(Buffer::new(view.camera.image(), samples, content))
 }
 
 impl Check {

@@ -1,7 +1,7 @@
 //! Why files of a renderer are wrong: conventions that explain many of them at once, then the reasons of the pixels of each.
 
 use super::found::{Cause, Certainty, CheckedFile};
-use super::truth;
+use super::truth::truth;
 use crate::common::{Camera, Scene, View};
 use crate::diff::foreign::{Aspect, Buffer, CompareOptions, Content, compare_with, ids_of_floats};
 use crate::diff::why::{

@@ -1,9 +1,9 @@
 //! Renderers with planted mistakes draw the whole set.
 
 use super::*;
-use crate::common::{CameraDescription, Frame, Projection};
+use crate::common::{CameraDescription, Frame, Options, Projection};
 use crate::diff::why::Pose;
-use crate::orders::Rules;
+use crate::orders::{self, Method, Order, RenderOptions, Rules};
 use crate::picture::mask;
 use crate::vectors::{self, Group, Vector};
 use image::GrayImage;

@@ -5,8 +5,6 @@
 //! a letter of a subscript is one of its private letters, which nobody else sees: what is read instead of seen has
 //! [`plain`] letters.
 
-use super::text::Weight;
-
 /// The bold letter of Unicode that stands for a.
 const BOLD_A: u32 = 0x1d41a;
 /// What is added to the number of an ASCII letter for the same letter as a subscript.
@@ -16,34 +14,29 @@ const SUBSCRIPT: u32 = 0xe000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Form {
     pub(super) letter: char,
-    pub(super) weight: Weight,
+    /// Whether it is bold, whatever the text is.
+    pub(super) is_vector: bool,
     is_subscript: bool,
 }
 
 impl Form {
-    /// The form of a letter in a text of this weight.
-    pub(super) fn of(letter: char, weight: Weight) -> Form {
+    pub(super) fn of(letter: char) -> Form {
         let number = u32::from(letter);
         let ascii = |number: u32| u8::try_from(number).ok().filter(u8::is_ascii).map(char::from);
         if let Some(place) = number.checked_sub(BOLD_A).filter(|place| *place < 26)
             && let Some(letter) = ascii(u32::from('a') + place)
         {
-            return Form { letter, weight: Weight::SemiBold, is_subscript: false };
+            return Form { letter, is_vector: true, is_subscript: false };
         }
         match number.checked_sub(SUBSCRIPT).and_then(ascii) {
-            Some(letter) => Form { letter, weight, is_subscript: true },
-            None => Form { letter, weight, is_subscript: false },
+            Some(letter) => Form { letter, is_vector: false, is_subscript: true },
+            None => Form { letter, is_vector: false, is_subscript: false },
         }
     }
 
     /// How far above the line it stands, in font units, and its size in that of the line.
     pub(super) fn place(self) -> [f32; 2] {
         if self.is_subscript { [-420.0, 0.7] } else { [0.0, 1.0] }
-    }
-
-    /// Whether both are of one weight and size.
-    pub(super) fn is_like(self, other: Form) -> bool {
-        (self.weight, self.is_subscript) == (other.weight, other.is_subscript)
     }
 }
 
@@ -58,7 +51,7 @@ pub(super) fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut was_subscript = false;
     for letter in text.chars() {
-        let form = Form::of(letter, Weight::Regular);
+        let form = Form::of(letter);
         if form.is_subscript && !was_subscript {
             plain.push('_');
         }

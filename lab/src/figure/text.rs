@@ -165,17 +165,17 @@ fn set(text: &str, style: Style) -> Line {
     let (mut glyphs, mut width) = (Vec::new(), 0.0);
     let mut previous = None;
     for letter in text.chars() {
-        let form = Form::of(letter, style.weight);
-        let (font, [y, size]) = (form.weight.font(), form.place());
+        let form = Form::of(letter);
+        let weight = if form.is_vector { Weight::SemiBold } else { style.weight };
+        let (font, [y, size]) = (weight.font(), form.place());
         let (glyph, advance) = font.advance(form.letter, style.figures);
-        // Letters of two forms keep their own distance.
-        if let Some((_, before)) = previous.filter(|(before, _): &(Form, _)| before.is_like(form)) {
+        // Letters of two weights, or sizes, keep their own distance.
+        if let Some((_, before)) = previous.filter(|(like, _)| *like == (weight, size)) {
             width += size * font.kern([before, glyph]);
         }
-        let number = glyph.to_u16();
-        glyphs.push(Glyph { weight: form.weight, number, x: width, y, size });
+        glyphs.push(Glyph { weight, number: glyph.to_u16(), x: width, y, size });
         width += size * advance;
-        previous = Some((form, glyph));
+        previous = Some(((weight, size), glyph));
     }
     Line { glyphs, width }
 }
