@@ -91,7 +91,7 @@ fn what_looks_at_each_primitive_refuses_so_many() {
     for line in [
         "film rings.toml -o film.gif",
         "figure order rings.toml -o order.svg",
-        "export rings.toml --as obj -o rings.obj",
+        "export rings.toml --as obj -o rings",
         "render rings.toml --object-rules snapped:8 -o ruled",
         "slides rings.toml -o slides",
     ] {
