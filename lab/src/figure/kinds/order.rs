@@ -5,7 +5,7 @@ use super::work::watch;
 use crate::common::observe::{Events, Observer};
 use crate::common::raster::Sample;
 use crate::common::{Camera, Frame, Options, View};
-use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::figure::drawing::{Anchor, Drawing, Pen};
 use crate::figure::marks::mark;
 use crate::figure::resize::within;
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP, drawn_size};
@@ -105,31 +105,35 @@ fn curves(sheet: &mut Sheet, clocks: &[Clock; 2], image: [u32; 2], corner: [f64;
     let size = [RIGHT - corner[0], MAP[1]];
     sheet.heading(corner, size[0], "pixels decided", "up to all, by the part of its own steps");
     sheet.mat(corner, size);
-    for clock in clocks {
-        let color = theme.of(clock.order.into());
-        let line: Vec<[f64; 2]> = clock
-            .course(image)
-            .into_iter()
-            .map(|[steps, pixels]| {
-                [corner[0] + steps * size[0], corner[1] + (0.97 - 0.92 * pixels) * size[1]]
-            })
-            .collect();
-        let pen = Pen::new(color, 4.0);
-        sheet
-            .drawing
-            .line(&line, if clock.order == Order::Image { pen.dashed(14.0, 10.0) } else { pen });
-        // Each mark has a place of its own, so that curves that coincide are told apart.
+    let lines = clocks.each_ref().map(|clock| {
+        let course = clock.course(image).into_iter();
+        let place = |[steps, pixels]: [f64; 2]| {
+            [corner[0] + steps * size[0], corner[1] + (0.97 - 0.92 * pixels) * size[1]]
+        };
+        course.map(place).collect::<Vec<_>>()
+    });
+    for (clock, line) in clocks.iter().zip(&lines) {
+        let pen = Pen::new(theme.of(clock.order.into()), 4.0);
+        let pen = if clock.order == Order::Image { pen.dashed(14.0, 10.0) } else { pen };
+        sheet.drawing.line(line, pen);
+    }
+    // Each mark has a place of its own, so that curves that coincide are told apart.
+    let marked = clocks.iter().zip(&lines).map(|(clock, line)| {
         let (third, side) = match clock.order {
             Order::Object => (2, [0.7, 1.0]),
             Order::Image => (1, [-0.7, -1.0]),
         };
-        let at = line[third * line.len() / 3];
-        mark(&mut sheet.drawing, clock.order, at, 10.0, Ink::new(color));
-        sheet.drawing.window(Some((corner, size)));
-        let style = theme.label().of(color).semi_bold();
-        sheet.drawing.label(at, side, clock.order.name(), style, Some(theme.mat()));
-        sheet.drawing.window(None);
+        (clock.order, line[third * line.len() / 3], side)
+    });
+    for (order, at, _) in marked.clone() {
+        mark(&mut sheet.drawing, order, at, 10.0, theme.ink(order.into()));
     }
+    sheet.drawing.window(Some((corner, size)));
+    for (order, at, side) in marked {
+        let style = theme.label().of(theme.of(order.into())).semi_bold();
+        sheet.drawing.label(at, side, order.name(), style, Some(theme.mat()));
+    }
+    sheet.drawing.window(None);
     sheet.border(corner, size);
 }
 
