@@ -19,8 +19,8 @@ pub(super) fn write(drawing: &Drawing) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
          height=\"{height}\" role=\"img\" aria-labelledby=\"title description\">\n\
          <title id=\"title\">{}</title>\n<desc id=\"description\">{}</desc>\n",
-        escaped(&drawing.title),
-        escaped(&drawing.description)
+        escaped(&plain(&drawing.title)),
+        escaped(&plain(&drawing.description))
     );
     svg += &letters(drawing);
     let canvas = path(&[[0.0, 0.0], [width, 0.0], CANVAS, [0.0, height]]);
