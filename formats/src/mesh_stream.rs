@@ -185,9 +185,8 @@ mod tests {
 
     /// The mesh of a file as the reader reads it, and as a stream reads it; `None` if the file is refused.
     fn both(name: &str, content: &[u8]) -> [Option<Mesh>; 2] {
-        let folder = std::env::temp_dir().join(format!("bothways-stream-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        let path = folder.join(name);
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
         std::fs::write(&path, content).unwrap();
         let format = Format::of(&path).unwrap();
         let whole = format.read(&InputFile::on_disk(&path, Reach::Folder)).ok().map(|whole| {

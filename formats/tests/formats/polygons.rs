@@ -6,7 +6,6 @@ use bothways_formats::mesh_file::Format;
 use bothways_formats::mesh_stream::MeshStream;
 use bothways_formats::{obj, ply};
 use std::fmt::Write;
-use std::path::PathBuf;
 
 /// Vertices, and polygons that name them.
 struct Drawing {
@@ -163,9 +162,8 @@ fn ply_file(drawing: &Drawing, values: Values, faces_first: bool, with_list: boo
 
 /// The triangles of a file on the disk: of its mesh, and of a stream.
 fn read_and_streamed(name: &str, bytes: &[u8], format: Format) -> [Vec<[u32; 3]>; 2] {
-    let folder = std::env::temp_dir().join(format!("bothways-polygons-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("there is room");
-    let path: PathBuf = folder.join(name);
+    let folder = tempfile::tempdir().expect("there is room");
+    let path = folder.path().join(name);
     std::fs::write(&path, bytes).expect("there is room");
     let read = match format {
         Format::Obj => obj::read(&path).expect("the file is right"),
@@ -174,7 +172,6 @@ fn read_and_streamed(name: &str, bytes: &[u8], format: Format) -> [Vec<[u32; 3]>
     let mut streamed = Vec::new();
     let mut stream = MeshStream::open(&path, format).expect("the file is right");
     stream.for_each_triangle(|_, triangle| streamed.push(triangle)).expect("the file is right");
-    std::fs::remove_file(&path).expect("it is there");
     [read.triangles().to_vec(), streamed]
 }
 
