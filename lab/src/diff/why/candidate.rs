@@ -1,6 +1,6 @@
 //! A hypothesis, and how well it does.
 
-use super::convention::{Convention, Pose};
+use super::convention::{Convention, Interpolation, Pose};
 use super::encoding::{Encoding, IdEncoding};
 use super::expected::Score;
 
@@ -51,7 +51,11 @@ impl Candidate {
             self.convention.pose != Pose::AsStated || self.convention.field.is_of_angle();
         let close_left = if is_measured || is_close { 50 } else { 1 };
         let free_left = if self.convention.is_freely_posed() { 200 } else { 1 };
-        let least = parts_left.max(omission_left).max(close_left).max(free_left);
+        // Other distances exchange a few primitives in any picture.
+        let is_interpolated = self.convention.interpolation != Interpolation::Perspective;
+        let interpolated_left = if is_interpolated { 10 } else { 1 };
+        let least =
+            parts_left.max(omission_left).max(close_left).max(free_left).max(interpolated_left);
         let most_mistakes = if is_mask { 2 } else { 3 };
         mistakes <= most_mistakes
             && may_be_names

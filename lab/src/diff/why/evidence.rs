@@ -23,8 +23,8 @@ pub(super) fn no_evidence(
     let seen = truth.ids.iter().filter(|&&id| id != NO_PRIMITIVE).count();
     if are_ids(observed, truth) {
         Some(
-            "all its numbers are whole, as of ids that are saved as floating-point numbers: save them as integers \
-             (astype('uint32'))"
+            "all its numbers are whole, as of ids that are saved as floating-point numbers (save them as integers, \
+             astype('uint32')), or of depths in whole steps"
                 .into(),
         )
     } else if covered == 0 {
