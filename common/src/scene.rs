@@ -47,45 +47,10 @@ impl Object {
     }
 }
 
-impl From<Shape> for Object {
+impl<S: Into<Shape>> From<S> for Object {
     /// An object of the default material.
-    fn from(shape: Shape) -> Self {
-        Object { shape, material: Material::default() }
-    }
-}
-
-impl From<Triangle> for Object {
-    /// An object of the default material.
-    fn from(triangle: Triangle) -> Self {
-        Shape::from(triangle).into()
-    }
-}
-
-impl From<Sphere> for Object {
-    /// An object of the default material.
-    fn from(sphere: Sphere) -> Self {
-        Shape::from(sphere).into()
-    }
-}
-
-impl From<Plane> for Object {
-    /// An object of the default material.
-    fn from(plane: Plane) -> Self {
-        Shape::from(plane).into()
-    }
-}
-
-impl From<Mesh> for Object {
-    /// An object of the default material.
-    fn from(mesh: Mesh) -> Self {
-        Shape::from(mesh).into()
-    }
-}
-
-impl From<Instances> for Object {
-    /// An object of the default material.
-    fn from(instances: Instances) -> Self {
-        Shape::from(instances).into()
+    fn from(shape: S) -> Self {
+        Object { shape: shape.into(), material: Material::default() }
     }
 }
 

@@ -84,7 +84,7 @@ pub(super) struct Why<'a> {
     /// Whether A and B are pictures, of which coverage alone is held against the scene.
     are_pictures: [bool; 2],
     /// Whether one of the files is empty, or as a whole not what it is read as: then the reasons of its single pixels mislead.
-    is_no_matter_of_pixels: bool,
+    is_wrong_as_a_whole: bool,
     /// The scene and the camera's options, as they were given: what `bothways pixel` needs.
     scene: String,
     /// The conventions of A and of B, or why they cannot be found.
@@ -125,12 +125,12 @@ impl<'a> Why<'a> {
             let is_mask = matches!([a, b][side].content(), Content::Mask(_));
             matches!(finding, Ok(Finding::NoEvidence(_))) && !(is_mask && covered[side] > 0)
         };
-        let is_no_matter_of_pixels = misleads(0) || misleads(1);
+        let is_wrong_as_a_whole = misleads(0) || misleads(1);
         Why {
             camera: view.camera,
             samples,
             are_pictures,
-            is_no_matter_of_pixels,
+            is_wrong_as_a_whole,
             scene,
             conventions,
             reasons,
@@ -142,7 +142,7 @@ impl<'a> Why<'a> {
         let mut text = String::new();
         match &self.reasons {
             // That some pixels of an empty file would lie near edges says nothing of why it is empty.
-            Ok(_) if self.is_no_matter_of_pixels => text.push('\n'),
+            Ok(_) if self.is_wrong_as_a_whole => text.push('\n'),
             Ok(reasons) => self.table(reasons, &mut text),
             Err(error) => line(&mut text, format_args!("no reasons: {error}")),
         }
@@ -257,18 +257,15 @@ impl<'a> Why<'a> {
                     "{name} is wrong in {wrong}, by rounding alone: its conventions are those of the scene"
                 ),
             ),
-            Finding::Unexplained(Some(place)) => line(
-                text,
-                format_args!(
-                    "{name} is wrong in {wrong}; {place}; no convention that is known here explains a quarter of them"
-                ),
-            ),
-            Finding::Unexplained(None) => line(
-                text,
-                format_args!(
-                    "{name} is wrong in {wrong}, and no convention that is known here explains a quarter of them"
-                ),
-            ),
+            Finding::Unexplained(place) => {
+                let place = place.as_ref().map_or(", and".into(), |place| format!("; {place};"));
+                line(
+                    text,
+                    format_args!(
+                        "{name} is wrong in {wrong}{place} no convention that is known here explains a quarter of them"
+                    ),
+                );
+            }
             Finding::Explained(explanations) => {
                 self.explanations(name, *differing, explanations, text);
             }

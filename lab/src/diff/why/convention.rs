@@ -351,8 +351,7 @@ impl Convention {
             _ => (false, false),
         };
         [(self.columns, mirrored), (self.rows, upside_down)].map(|(sampling, turned)| {
-            let is_far = turned && sampling == Sampling::FarCorner;
-            if is_far { sampling.from_the_other_side() } else { sampling }
+            if turned && sampling == Sampling::FarCorner { Sampling::Corner } else { sampling }
         })
     }
 

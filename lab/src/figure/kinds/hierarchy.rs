@@ -2,7 +2,7 @@
 //! rasterizer's clusters and tiles.
 
 use super::one_ray::{Path, telling};
-use crate::common::{Camera, Frame, View};
+use crate::common::{Frame, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::marks::crosshair;
 use crate::figure::project::{Projector, corners_of_box};
@@ -66,7 +66,6 @@ fn at(column: usize, row: usize) -> [f64; 2] {
 
 /// A panel with the picture: where a place on the raster lies on the canvas.
 struct Panel<'a> {
-    camera: &'a Camera,
     view: View<'a>,
     corner: [f64; 2],
     size: [f64; 2],
@@ -82,11 +81,11 @@ impl<'a> Panel<'a> {
     ) -> Panel<'a> {
         let size = sheet.picture(picture.clone(), corner, PANEL);
         sheet.heading(corner, size[0].max(400.0), name, note);
-        Panel { camera: subject.view.camera, view: subject.view, corner, size }
+        Panel { view: subject.view, corner, size }
     }
 
     fn place(&self, [column, row]: [f64; 2]) -> [f64; 2] {
-        let [width, height] = self.camera.image().map(f64::from);
+        let [width, height] = self.view.camera.image().map(f64::from);
         let [x, y] = self.corner;
         [x + column / width * self.size[0], y + row / height * self.size[1]]
     }
@@ -104,7 +103,7 @@ impl<'a> Panel<'a> {
 
     fn one_box(&self, sheet: &mut Sheet, one: &HierarchyBox, pen: Pen, edges: bool) {
         sheet.drawing.window(Some((self.corner, self.size)));
-        let projector = Projector { camera: self.camera };
+        let projector = Projector { camera: self.view.camera };
         let corners = corners_of_box(&self.view, [one.low, one.high]);
         let seen: Option<Vec<[f64; 2]>> =
             corners.iter().map(|corner| projector.place(*corner)).collect();

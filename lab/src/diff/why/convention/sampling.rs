@@ -60,21 +60,6 @@ impl Sampling {
         self.numbers().0 as f64
     }
 
-    /// The same samples, told by a loop that counts from the other side.
-    #[must_use]
-    pub fn from_the_other_side(self) -> Sampling {
-        match self {
-            Sampling::Corner => Sampling::FarCorner,
-            Sampling::FarCorner => Sampling::Corner,
-            Sampling::PixelBefore => Sampling::PixelAfter,
-            Sampling::PixelAfter => Sampling::PixelBefore,
-            Sampling::Middle
-            | Sampling::BorderToBorder
-            | Sampling::OneFewer
-            | Sampling::OneMore => self,
-        }
-    }
-
     /// Whether `n` columns or rows can be sampled in this way.
     pub fn is_possible(self, n: u32) -> bool {
         i64::from(n) > self.numbers().1

@@ -4,7 +4,7 @@ use super::Search;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::diff::why::candidate::Candidate;
 use crate::diff::why::convention::{Change, Placement, Pose};
-use crate::diff::why::encoding::{Encoding, NothingEncoding};
+use crate::diff::why::encoding::NothingEncoding;
 use crate::diff::why::expected::{Expected, Score};
 use crate::diff::why::observed::Values;
 use std::collections::BTreeMap;
@@ -18,8 +18,6 @@ const FEWEST_OF_MEASURED: u64 = 16;
 const LEFT_OF_FEW_IDS: u64 = 200;
 /// So many of the likeliest hypotheses are looked at.
 const MOST_LOOKED_AT: usize = 32;
-/// Distances that differ by less than this part of them are one picture.
-const SAME_DISTANCE: f64 = 5e-6;
 
 impl Search<'_> {
     /// Whether the numbers of a hypothesis allow that it explains the file.
@@ -52,16 +50,15 @@ impl Search<'_> {
             || 4 * candidate.score.shown >= self.covered
     }
 
-    /// The hypotheses that lose no object which is right by ours, as far as it is seen, and whose own picture is another than the true one.
+    /// The hypotheses that lose no object which is right by ours, as far as it is seen.
     pub(super) fn credible(&self, mut candidates: Vec<Candidate>) -> Vec<Candidate> {
         let objects = self.right_objects();
-        let may_be_the_truth = matches!(self.observed.values, Values::Distances(_));
-        if objects.is_empty() && !may_be_the_truth {
+        if objects.is_empty() {
             return candidates;
         }
         candidates.retain(|one| self.may_explain(one, self.ours));
         candidates.truncate(MOST_LOOKED_AT);
-        candidates.retain(|one| self.keeps(&objects, one) && self.is_another_picture(one));
+        candidates.retain(|one| self.keeps(&objects, one));
         candidates
     }
 
@@ -90,9 +87,6 @@ impl Search<'_> {
 
     /// Whether three quarters of these pixels of each object are still right under a hypothesis.
     fn keeps(&self, objects: &[Vec<usize>], candidate: &Candidate) -> bool {
-        if objects.is_empty() {
-            return true;
-        }
         let Candidate { convention, encoding, .. } = candidate;
         let drawn = self.whole(convention);
         let expected = Expected::new(self.view, convention, &drawn);
@@ -104,25 +98,6 @@ impl Search<'_> {
             let right = pixels.iter().filter(|&&pixel| !differs[pixel]).count();
             4 * right >= 3 * pixels.len()
         })
-    }
-
-    /// Whether the distances of a moved eye are others than the true ones, in half of the pixels that it explains: a tiny step
-    /// takes any distance over the border of the tolerance.
-    fn is_another_picture(&self, candidate: &Candidate) -> bool {
-        let Candidate { convention, encoding, score } = candidate;
-        let is_distances = matches!(self.observed.values, Values::Distances(_));
-        if !is_distances || !convention.is_posed() || *encoding != Encoding::default() {
-            return true;
-        }
-        let drawn = self.whole(convention);
-        let truth = self.truth.ids.iter().zip(&self.truth.t);
-        let others =
-            drawn.ids.iter().zip(&drawn.t).zip(truth).filter(|((id, t), (ours, true_t))| {
-                (**id == NO_PRIMITIVE) != (**ours == NO_PRIMITIVE)
-                    || (*t - *true_t).abs() > SAME_DISTANCE * t.abs()
-            });
-        let explained = self.ours.differing.saturating_sub(score.differing);
-        2 * others.count() as u64 >= explained
     }
 }
 
